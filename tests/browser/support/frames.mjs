@@ -94,10 +94,6 @@ function tiffDirectory(at, length, last) {
 
 /** An uncompressed DICOM file of 12 stored bits, explicit little endian, after PS3.5 and PS3.10. @param {((grey: number) => number)[]} frames */
 export function dicom(frames) {
-  const syntax = element(0x0002, 0x0010, 'UI', '1.2.840.10008.1.2.1\0');
-  const meta = Buffer.concat([element(0x0002, 0x0001, 'OB', Buffer.from([0, 1])), syntax]);
-  const length = Buffer.alloc(4);
-  length.writeUInt32LE(meta.length);
   const image = [
     element(0x0028, 0x0002, 'US', words([1])),
     element(0x0028, 0x0004, 'CS', 'MONOCHROME2 '),
@@ -112,7 +108,38 @@ export function dicom(frames) {
     element(0x0028, 0x1051, 'DS', '600 '),
     element(0x7fe0, 0x0010, 'OW', words(frames.flatMap((change) => pattern(change)))),
   ];
-  return file('run.dcm', Buffer.concat([Buffer.alloc(128), Buffer.from('DICM'), element(0x0002, 0x0000, 'UL', length), meta, ...image]));
+  return file('run.dcm', withMeta('1.2.840.10008.1.2.1\0', image));
+}
+
+/**
+ * An uncompressed DICOM film of 8 bits with a round shutter.
+ *
+ * @param {readonly Uint8Array[]} frames
+ * @param {{ width: number, height: number }} size
+ * @param {{ column: number, row: number, radius: number }} open pixels as DICOM counts them, from 1
+ */
+export function shutteredFilm(frames, { width, height }, { column, row, radius }) {
+  const text = (/** @type {string} */ value) => value.padEnd(value.length + (value.length % 2));
+  const image = [
+    element(0x0018, 0x1600, 'CS', text('CIRCULAR')),
+    element(0x0018, 0x1610, 'IS', text(`${row}\\${column}`)),
+    element(0x0018, 0x1612, 'IS', text(`${radius}`)),
+    element(0x0028, 0x0002, 'US', words([1])),
+    element(0x0028, 0x0004, 'CS', 'MONOCHROME2 '),
+    element(0x0028, 0x0008, 'IS', text(`${frames.length}`)),
+    ...[height, width].map((side, index) => element(0x0028, 0x0010 + index, 'US', words([side]))),
+    ...[8, 8, 7, 0].map((value, index) => element(0x0028, 0x0100 + index, 'US', words([value]))),
+    element(0x7fe0, 0x0010, 'OW', Buffer.concat(frames)),
+  ];
+  return file('shuttered.dcm', withMeta('1.2.840.10008.1.2.1\0', image));
+}
+
+/** A DICOM file after PS3.10. @param {string} syntax of even length @param {readonly Buffer[]} elements */
+function withMeta(syntax, elements) {
+  const meta = Buffer.concat([element(0x0002, 0x0001, 'OB', Buffer.from([0, 1])), element(0x0002, 0x0010, 'UI', syntax)]);
+  const length = Buffer.alloc(4);
+  length.writeUInt32LE(meta.length);
+  return Buffer.concat([Buffer.alloc(128), Buffer.from('DICM'), element(0x0002, 0x0000, 'UL', length), meta, ...elements]);
 }
 
 /** @param {number} group @param {number} number @param {string} representation @param {Buffer | string} value of even length */
@@ -156,12 +183,6 @@ export const JPEG_2000 = {
  * @param {{ syntax: string, width: number, height: number, codestream: Buffer, stated: Record<string, string> }} image
  */
 export function dicomOf({ syntax, width, height, codestream, stated }) {
-  const meta = Buffer.concat([
-    element(0x0002, 0x0001, 'OB', Buffer.from([0, 1])),
-    element(0x0002, 0x0010, 'UI', syntax.length % 2 ? `${syntax}\0` : syntax),
-  ]);
-  const length = Buffer.alloc(4);
-  length.writeUInt32LE(meta.length);
   const further = Object.entries(stated).map(([tag, value]) => ({ tag, content: Buffer.from(value.length % 2 ? `${value} ` : value), kind: 'DS' }));
   const image = [
     { tag: '0028,0002', kind: 'US', content: words([1]) },
@@ -176,8 +197,7 @@ export function dicomOf({ syntax, width, height, codestream, stated }) {
   ];
   image.sort((a, b) => a.tag.localeCompare(b.tag));
   const elements = image.map(({ tag, kind, content }) => element(...numbersOf(tag), kind, content));
-  const file_ = [Buffer.alloc(128), Buffer.from('DICM'), element(0x0002, 0x0000, 'UL', length), meta, ...elements, fragments(codestream)];
-  return file('compressed.dcm', Buffer.concat(file_));
+  return file('compressed.dcm', withMeta(syntax.length % 2 ? `${syntax}\0` : syntax, [...elements, fragments(codestream)]));
 }
 
 /** @param {string} tag @returns {[number, number]} */

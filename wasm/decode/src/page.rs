@@ -88,6 +88,20 @@ impl PageFrame {
         self.0.bits
     }
 
+    /// Continues the picture behind the file's shutter, where nobody should look, so that no edge is there, and tells which pixels
+    /// that are, numbered row by row: of each run the first one, and the one after its last. None where there is no shutter.
+    pub fn cover(&mut self) -> Vec<u32> {
+        let GreyFrame { width, height, .. } = self.0;
+        let Some(shutter) = self.0.shutter.take() else {
+            return Vec::new();
+        };
+        match &mut self.0.pixels {
+            Pixels::U8(pixels) => shutter.continue_behind(pixels, width),
+            Pixels::U16(pixels) => shutter.continue_behind(pixels, width),
+        }
+        shutter.covered(width, height)
+    }
+
     /// A copy of the pixels, row by row: `Uint8Array` up to 8 bits, `Uint16Array` above.
     #[wasm_bindgen(getter, unchecked_return_type = "Uint8Array | Uint16Array")]
     pub fn pixels(&self) -> JsValue {

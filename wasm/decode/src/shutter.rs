@@ -44,6 +44,55 @@ impl Shutter {
         open
     }
 
+    /// The covered pixels of a frame, numbered row by row: of each run the first one, and the one after its last.
+    #[must_use]
+    pub fn covered(&self, width: u32, height: u32) -> Vec<u32> {
+        let mut ends = Vec::new();
+        for row in 0..height {
+            for open in self.open(row, width) {
+                ends.extend([open.start, open.end].map(|column| row * width + column));
+            }
+        }
+        // Between the runs that are open; those that touch are one.
+        let all = std::iter::once(0).chain(ends).chain([width * height]);
+        let mut covered: Vec<u32> = Vec::new();
+        for end in all {
+            match covered.last() {
+                Some(&last) if last == end => drop(covered.pop()),
+                _ => covered.push(end),
+            }
+        }
+        covered
+    }
+
+    /// Gives covered pixels the value of the nearest in their row that is open, and rows without one that of the nearest row: whatever
+    /// looks at neighbours finds no edge there.
+    pub(crate) fn continue_behind<P: Copy>(&self, pixels: &mut [P], width: u32) {
+        let length = width.max(1) as usize;
+        let mut last_open: Option<usize> = None;
+        let rows = pixels.len() / length;
+        for row in 0..rows {
+            let open = self.open(row as u32, width);
+            let Some(line) = pixels.get_mut(row * length..(row + 1) * length) else {
+                return;
+            };
+            if !continue_row(line, &open) {
+                continue;
+            }
+            for covered in last_open.map_or(0, |last| last + 1)..row {
+                let nearest = last_open.filter(|last| covered - last <= row - covered);
+                let from = nearest.unwrap_or(row) * length;
+                pixels.copy_within(from..from + length, covered * length);
+            }
+            last_open = Some(row);
+        }
+        if let Some(last) = last_open {
+            for covered in last + 1..rows {
+                pixels.copy_within(last * length..(last + 1) * length, covered * length);
+            }
+        }
+    }
+
     /// How many pixels of a frame are open.
     pub(crate) fn open_area(&self, width: u32, height: u32) -> u64 {
         let spans = (0..height).flat_map(|row| self.open(row, width));
@@ -73,6 +122,28 @@ impl Shape {
             Self::Polygon(corners) => polygon(corners, y, width),
         }
     }
+}
+
+/// Continues a row beyond what is open of it; false where nothing is.
+fn continue_row<P: Copy>(line: &mut [P], open: &[Range<u32>]) -> bool {
+    let mut covered = 0;
+    let mut before = None;
+    for span in open {
+        let (start, end) = (span.start as usize, span.end as usize);
+        let Some(&after) = line.get(start) else {
+            return false;
+        };
+        // The left one of two that are as near.
+        let middle = before.map_or(covered, |_| covered + (start - covered).div_ceil(2));
+        line[covered..middle].fill(before.unwrap_or(after));
+        line[middle..start].fill(after);
+        before = line.get(end - 1).copied();
+        covered = end;
+    }
+    if let Some(value) = before {
+        line[covered..].fill(value);
+    }
+    before.is_some()
 }
 
 /// The columns whose centres lie from `from` to `to`.
@@ -183,6 +254,44 @@ mod tests {
                     assert!(open.iter().all(|span| !span.is_empty()));
                 }
                 assert_eq!(shutter.open_area(20, 13), area);
+                what_is_covered_is_continued(&shutter);
+            }
+        }
+    }
+
+    /// By looking for the nearest at each pixel: in its row, the left of two; else in the nearest row, the upper of two.
+    fn what_is_covered_is_continued(shutter: &Shutter) {
+        let (width, height) = (20, 13);
+        let open: Vec<bool> = (0..height)
+            .flat_map(|row| {
+                let spans = shutter.open(row, width);
+                (0..width).map(move |column| spans.iter().any(|span| span.contains(&column)))
+            })
+            .collect();
+        let covered = shutter.covered(width, height);
+        assert!(covered.is_sorted_by(|a, b| a < b), "{covered:?}");
+        for (number, &is_open) in open.iter().enumerate() {
+            let ends_before = covered.partition_point(|&end| end as usize <= number);
+            assert_eq!(ends_before % 2 == 0, is_open, "{covered:?} {number}");
+        }
+
+        let (width, height) = (width as usize, height as usize);
+        let is_open = |row: usize, column: usize| open[row * width + column];
+        let nearest = |row: usize, column: usize| {
+            let columns = (0..width).filter(|&at| is_open(row, at));
+            columns.min_by_key(|&at| (at.abs_diff(column), at))
+        };
+        let stored: Vec<u16> = (0..260).collect();
+        let mut continued = stored.clone();
+        shutter.continue_behind(&mut continued, 20);
+        for row in 0..height {
+            let rows = (0..height).filter(|&at| nearest(at, 0).is_some());
+            let from = rows.min_by_key(|&at| (at.abs_diff(row), at));
+            for column in 0..width {
+                let due = from.map_or(stored[row * width + column], |from| {
+                    stored[from * width + nearest(from, column).expect("an open pixel")]
+                });
+                assert_eq!(continued[row * width + column], due, "{row} {column}");
             }
         }
     }

@@ -8,6 +8,7 @@ use fluoropose_distortion::resample::{map_row, resample_row};
 use fluoropose_distortion::ruler::scale;
 use wasm_bindgen::prelude::*;
 
+use crate::covered::Covered;
 use crate::error::sentence;
 use crate::frame_image::{FrameImage, Pixels};
 
@@ -79,7 +80,7 @@ impl Undistorter {
             }
         }
         let (columns, rows) = (width as u32, height as u32);
-        match frame.pixels() {
+        let mut straight = match frame.pixels() {
             Pixels::Eight(pixels) => FrameImage::from_eight_bit(
                 resampled(pixels, &self.map, width, height)?,
                 columns,
@@ -90,7 +91,9 @@ impl Undistorter {
                 columns,
                 rows,
             ),
-        }
+        }?;
+        straight.cover(covered(frame.behind(), &self.map, width, height))?;
+        Ok(straight)
     }
 
     /// For each pixel of the frame as taken, the number of the pixel of the straight frame that it shows, or one past
@@ -137,6 +140,25 @@ fn resampled<P: Pixel>(
         resample_row(&frame, places, row);
     }
     Ok(out)
+}
+
+/// The pixels of the straight frame that lie nearest to a covered one of the frame as taken.
+fn covered(behind: &Covered, map: &[[f32; 2]], width: usize, height: usize) -> Vec<u32> {
+    let mut ends = Vec::new();
+    if behind.is_empty() {
+        return ends;
+    }
+    for (number, &[column, row]) in map.iter().enumerate() {
+        let inside = (0.0..width as f32).contains(&column) && (0.0..height as f32).contains(&row);
+        let is_covered = inside && behind.has(row as usize * width + column as usize);
+        if is_covered != (ends.len() % 2 == 1) {
+            ends.push(number as u32);
+        }
+    }
+    if ends.len() % 2 == 1 {
+        ends.push(map.len() as u32);
+    }
+    ends
 }
 
 /// The camera that took a bead plate: pixel pitch and its standard deviation (mm), principal point x and y from the
@@ -198,4 +220,28 @@ pub fn ruler_scale(
     )
     .map_err(sentence)?;
     Ok(vec![found.length_px, found.pitch_mm, found.focal_px])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_covered_moves_with_the_frame() {
+        let (width, height) = (5, 3);
+        let ends = vec![1, 3, 9, 11];
+        let behind = Covered::new(ends, 15).unwrap();
+        // Each pixel shows the one to its right; those of the last column, and one more, show none.
+        let place = |number: usize| match number {
+            7 => [f32::NAN; 2],
+            _ => [(number % width) as f32 + 1.5, (number / width) as f32 + 0.5],
+        };
+        let map: Vec<[f32; 2]> = (0..15).map(place).collect();
+        let moved = Covered::new(covered(&behind, &map, width, height), 15).unwrap();
+        for number in 0..15 {
+            let is_shown = number % width + 1 < width && number != 7;
+            let due = is_shown && behind.has(number + 1);
+            assert_eq!(moved.has(number), due, "{number}");
+        }
+    }
 }

@@ -3,11 +3,13 @@
 use std::rc::Rc;
 
 use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose::image::shuttered::Shuttered;
 use fluoropose_tracing::smoothed::{Scale, Smoothed};
 use js_sys::{Uint8Array, Uint16Array};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
+use crate::covered::Covered;
 use crate::error::sentence;
 use crate::paint::{Rgba, put};
 use crate::preprocessing;
@@ -17,6 +19,8 @@ use crate::preprocessing;
 pub struct FrameImage {
     /// Of all that look at this film: nobody changes them.
     pixels: Rc<Pixels>,
+    /// Of them are not of the picture.
+    covered: Covered,
     width: usize,
     height: usize,
     /// The picture that was last shown instead of the film itself.
@@ -55,6 +59,7 @@ impl FrameImage {
         check(&pixels, width, height)?;
         Ok(Self {
             pixels: Rc::new(Pixels::Eight(pixels)),
+            covered: Covered::default(),
             width: width as usize,
             height: height as usize,
             derived: None,
@@ -74,18 +79,37 @@ impl FrameImage {
         check(&pixels, width, height)?;
         Ok(Self {
             pixels: Rc::new(Pixels::Sixteen(pixels)),
+            covered: Covered::default(),
             width: width as usize,
             height: height as usize,
             derived: None,
         })
     }
 
+    /// From now on these pixels are not of the picture: nothing is read or shown there. They are numbered row by row, of each run the
+    /// first one and the one after its last; the tools for tracing find what their values are, which should be as beside them.
+    ///
+    /// # Errors
+    /// A sentence where they are no runs of the frame's pixels.
+    pub fn cover(&mut self, ends: Vec<u32>) -> Result<(), JsError> {
+        let covered = Covered::new(ends, self.width * self.height);
+        self.covered =
+            covered.ok_or_else(|| JsError::new("what is covered is not of this frame"))?;
+        Ok(())
+    }
+
+    /// The pixels that are not of the picture, as [`Self::cover`] takes them.
+    #[wasm_bindgen(getter)]
+    pub fn covered(&self) -> Vec<u32> {
+        self.covered.ends().to_vec()
+    }
+
     /// Least and greatest grey value, then the centre and width of a window that leaves out half a percent at either end.
     #[wasm_bindgen(js_name = greyRange)]
     pub fn grey_range(&self) -> Vec<f64> {
         match self.pixels() {
-            Pixels::Eight(pixels) => grey_range(pixels),
-            Pixels::Sixteen(pixels) => grey_range(pixels),
+            Pixels::Eight(pixels) => grey_range(pixels, &self.covered),
+            Pixels::Sixteen(pixels) => grey_range(pixels, &self.covered),
         }
     }
 
@@ -142,7 +166,7 @@ impl FrameImage {
                 Self::derive(&self.pixels, look, self.width, self.height),
             )
         }));
-        develop(picture, &shades, self.width, context)
+        develop(picture, &self.covered, &shades, self.width, context)
     }
 
     /// A copy of the pixels, row by row, for another thread: `Uint8Array` of an 8-bit frame, `Uint16Array` of a 16-bit one.
@@ -154,7 +178,7 @@ impl FrameImage {
         }
     }
 
-    /// The grey value of the pixel at a column and row; nothing outside the frame.
+    /// The grey value of the pixel at a column and row; nothing outside the picture.
     #[wasm_bindgen(js_name = greyAt)]
     pub fn grey_at(&self, column: u32, row: u32) -> Option<u32> {
         let (column, row) = (column as usize, row as usize);
@@ -162,6 +186,9 @@ impl FrameImage {
             return None;
         }
         let index = row * self.width + column;
+        if self.covered.has(index) {
+            return None;
+        }
         match self.pixels() {
             Pixels::Eight(pixels) => pixels.get(index).map(|&grey| grey.into()),
             Pixels::Sixteen(pixels) => pixels.get(index).map(|&grey| grey.into()),
@@ -186,6 +213,7 @@ impl FrameImage {
     pub fn shared(&self) -> Self {
         Self {
             pixels: Rc::clone(&self.pixels),
+            covered: self.covered.clone(),
             width: self.width,
             height: self.height,
             derived: None,
@@ -195,8 +223,12 @@ impl FrameImage {
     fn put(&self, context: &CanvasRenderingContext2d, shades: &[Rgba]) -> Result<(), JsValue> {
         let count = self.width * self.height;
         match self.pixels() {
-            Pixels::Eight(pixels) => develop(&pixels[..count], shades, self.width, context),
-            Pixels::Sixteen(pixels) => develop(&pixels[..count], shades, self.width, context),
+            Pixels::Eight(pixels) => {
+                develop(&pixels[..count], &self.covered, shades, self.width, context)
+            }
+            Pixels::Sixteen(pixels) => {
+                develop(&pixels[..count], &self.covered, shades, self.width, context)
+            }
         }
     }
 
@@ -224,7 +256,7 @@ impl FrameImage {
         (self.width, self.height)
     }
 
-    /// Calls `with` with the frame, to be read between its pixels' centres.
+    /// Calls `with` with the frame, to be read between its pixels' centres; there is nothing where it is covered.
     ///
     /// # Errors
     /// That of `with`.
@@ -232,15 +264,29 @@ impl FrameImage {
         &self,
         with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
-        let (width, height) = (self.width, self.height);
         match self.pixels() {
-            Pixels::Eight(pixels) => {
-                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
-            }
-            Pixels::Sixteen(pixels) => {
-                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
-            }
+            Pixels::Eight(pixels) => self.look_at(pixels, with),
+            Pixels::Sixteen(pixels) => self.look_at(pixels, with),
         }
+    }
+
+    fn look_at<T, P: Pixel>(
+        &self,
+        pixels: &[P],
+        with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let (width, height) = (self.width, self.height);
+        let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+        if self.covered.is_empty() {
+            return with(&frame);
+        }
+        let words = self.covered.words(width, height)?;
+        with(&Shuttered::new(frame, words).map_err(sentence)?)
+    }
+
+    /// What is not of the picture.
+    pub(crate) fn behind(&self) -> &Covered {
+        &self.covered
     }
 
     fn derive(pixels: &Pixels, look: Derived, width: usize, height: usize) -> Vec<u8> {
@@ -285,31 +331,45 @@ fn shades(centre: f64, width: f64, levels: usize) -> Vec<Rgba> {
 /// Rows that are developed at a time: the memory for them is used again and again and stays in the processor's caches.
 const STRIP: usize = 64;
 
+/// What is covered is not painted: the canvas is clear there.
 fn develop<P: Pixel>(
     pixels: &[P],
+    covered: &Covered,
     shades: &[Rgba],
     width: usize,
     context: &CanvasRenderingContext2d,
 ) -> Result<(), JsValue> {
-    let mut strip = Vec::new();
+    let mut strip: Vec<Rgba> = Vec::new();
     for (number, pixels) in pixels.chunks((STRIP * width).max(1)).enumerate() {
         // There is a shade for every value of the type.
         let shade = |&grey: &P| shades.get(grey.into() as usize).copied();
         strip.clear();
         strip.extend(pixels.iter().map(|grey| shade(grey).unwrap_or_default()));
+        let first = number * STRIP * width;
+        for run in covered.runs() {
+            let place = |number: usize| number.saturating_sub(first).min(strip.len());
+            let [from, to] = [run.start, run.end].map(place);
+            strip[from..to].fill(Rgba::default());
+        }
         put(context, &strip, width, 0, number * STRIP)?;
     }
     Ok(())
 }
 
-fn grey_range<P: Pixel>(pixels: &[P]) -> Vec<f64> {
+fn grey_range<P: Pixel>(pixels: &[P], covered: &Covered) -> Vec<f64> {
     let mut counts = vec![0usize; 1 << 16];
-    for &grey in pixels {
-        if let Some(count) = counts.get_mut(grey.into() as usize) {
-            *count += 1;
+    let mut all = 0.0;
+    let ends = covered.runs().map(|run| (run.start, run.end));
+    let mut from = 0;
+    for (to, next) in ends.chain([(pixels.len(), 0)]) {
+        for &grey in &pixels[from..to] {
+            if let Some(count) = counts.get_mut(grey.into() as usize) {
+                *count += 1;
+            }
         }
+        all += (to - from) as f64;
+        from = next;
     }
-    let all = pixels.len() as f64;
     let low = level_below(&counts, 0.0);
     let high = level_below(&counts, all - 1.0);
     let dark = level_below(&counts, all * CLIPPED);
@@ -353,6 +413,16 @@ mod tests {
         let mut pixels: Vec<u16> = (0..10_000).map(|i| 1000 + (i % 101) as u16).collect();
         pixels[0] = 0;
         pixels[1] = 65_535;
-        assert_eq!(grey_range(&pixels), vec![0.0, 65_535.0, 1050.0, 100.0]);
+        let none = Covered::default();
+        assert_eq!(
+            grey_range(&pixels, &none),
+            vec![0.0, 65_535.0, 1050.0, 100.0]
+        );
+        let ends = Covered::new(vec![0, 1, 9_000, 10_000], pixels.len()).unwrap();
+        pixels[9_000..].fill(7);
+        assert_eq!(
+            grey_range(&pixels, &ends),
+            vec![1000.0, 65_535.0, 1050.0, 100.0]
+        );
     }
 }

@@ -10,6 +10,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
 pub mod calibration;
+mod covered;
 pub mod distortion;
 pub mod error;
 pub mod frame_image;

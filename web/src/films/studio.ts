@@ -1,7 +1,7 @@
 import { pictureOf } from '../document/same_frames';
 import init, {
   CalibrationText,
-  FrameImage,
+  type FrameImage,
   jointMotion,
   jtIntcalibText,
   Model,
@@ -25,6 +25,7 @@ import { Aborted } from '../workers/bridge';
 import { poseArray, poseFrom } from '../workers/protocol/pose_array';
 import { followBorder } from '../painting/border';
 import { paintPreprocessed } from '../painting/preprocessing';
+import { takenFrame } from '../painting/taken_frame';
 import { numbersAt } from '../painting/wasm_view';
 import type { Preprocessing } from '../terms/seeing';
 import type { FramePixels } from '../workers/protocol/frame_pixels';
@@ -134,9 +135,9 @@ export class Studio {
     return this.#known.size;
   }
 
-  #taken(known: KnownFrame, { pixels, width, height, window: stated, geometry }: DecodedFrame): HeldFrame {
-    const image =
-      pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+  #taken(known: KnownFrame, frame: DecodedFrame): HeldFrame {
+    const { pixels, width, height, window: stated, geometry } = frame;
+    const image = takenFrame(frame);
     const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = image.greyRange();
     known.facts = { least, greatest, window: stated ?? { centre, width: windowWidth } };
     known.stated = geometry;
@@ -212,15 +213,18 @@ export class Studio {
   }
 
   /** A copy of a frame's grey values, for a worker; null where its file is not at hand. */
-  async framePixels(id: string): Promise<FramePixels['pixels'] | null> {
+  async framePixels(id: string): Promise<FramePixels | null> {
     await this.bring(id);
-    return pixelsOf(this.#shown(id));
+    const image = this.#shown(id);
+    const held = this.#frames.get(pictureOf(id));
+    return image && held && { ...held.size, pixels: pixelsOf(image), covered: image.covered as FramePixels['covered'] };
   }
 
   /** The same of the frame as it was taken, whether it is shown undistorted or not. */
   async takenPixels(id: string): Promise<FramePixels['pixels'] | null> {
     await this.bring(id);
-    return pixelsOf(this.#frames.get(pictureOf(id))?.image ?? null);
+    const held = this.#frames.get(pictureOf(id));
+    return held ? pixelsOf(held.image) : null;
   }
 
   /** A frame anew from its file, as it was taken, for a worker to have; null where its file is not at hand. */
@@ -370,8 +374,8 @@ function paintPicture(model: Model, canvas: CanvasRenderingContext2D, { width, h
   return { left: 0, top: 0, width, height };
 }
 
-function pixelsOf(image: FrameImage | null): FramePixels['pixels'] | null {
-  return image && (image.copyPixels() as FramePixels['pixels']);
+function pixelsOf(image: FrameImage): FramePixels['pixels'] {
+  return image.copyPixels() as FramePixels['pixels'];
 }
 
 /** A frame without a pose keeps its row. */

@@ -67,8 +67,7 @@ export async function frameAt({ store, studio }: Services, at: number): Promise<
   const frame = store.doc.frames[at];
   const pixels = frame && (await studio.framePixels(frame.id));
   if (!frame || !pixels) throw new Error(texts.follow.gone(at + 1));
-  const { id, width, height } = frame;
-  return { frameId: id, pixels, width, height };
+  return { frameId: frame.id, ...pixels };
 }
 
 export function counting(report: (done: number, total: number) => void, total: number): () => void {

@@ -118,9 +118,9 @@ export class FirstPoses {
     if (!frame || !pixels) throw new Error(texts.follow.gone(number + 1));
     const job = { title: texts.follow.looking(texts.component[place.component], number + 1), unit: texts.tracing.said.percent, total: 100, cancel, place };
     const found = await asJob(store, job, (report) =>
-      worker.call('find', { pixels, width: frame.width, height: frame.height, beside }, {
+      worker.call('find', { ...pixels, beside }, {
         signal,
-        transfer: [pixels.buffer],
+        transfer: [pixels.pixels.buffer],
         onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
       }),
     );

@@ -110,20 +110,19 @@ export class FromHere {
 
 /** The frame itself as what a pose is held against. Throws a sentence where it cannot be. */
 export async function onFrameInput({ store, studio }: Services, { component, frameId }: Place): Promise<OnFrame> {
-  const pixels = await studio.framePixels(frameId);
+  const frame = await studio.framePixels(frameId);
   const { doc, ui } = store;
   const camera = cameraOf(doc, frameOf(doc, { component, frameId }));
   if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
-  if (!pixels) throw new Error(texts.hand.said.noPixels);
+  if (!frame) throw new Error(texts.hand.said.noPixels);
   if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
-  const { width, height } = camera;
   const others = COMPONENT_NAMES.flatMap((other) => {
     const there = other !== component && ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(doc, frameId, other));
     return there ? [{ component: other, pose: there.pose }] : [];
   });
   const { outline } = cellOf(doc, frameId, component);
   const unknown = outline?.closed && outline.unknownSides.length > 0 ? flatten(outline) : null;
-  return { component, camera, frame: { pixels, width, height }, others, unknown, film: filmNumbers(doc, component) };
+  return { component, camera, frame, others, unknown, film: filmNumbers(doc, component) };
 }
 
 function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {

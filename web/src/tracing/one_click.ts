@@ -96,7 +96,7 @@ export class OneClick {
     this.#take(answer, place, key, input.film);
   }
 
-  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels['pixels'] | null): OneClickInput {
+  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels | null): OneClickInput {
     const { store } = this.#services;
     const camera = cameraOf(store.doc, frame);
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);
@@ -106,7 +106,7 @@ export class OneClick {
     return {
       component,
       camera,
-      frame: { pixels, width: frame.width, height: frame.height },
+      frame: pixels,
       prompt: promptNumbers(prompt),
       bright,
       avoid: other?.closed ? flat(other.points) : null,

@@ -150,7 +150,7 @@ describe('refining from here', () => {
     const waited: string[] = [];
     let answer: (fit: unknown) => void = () => undefined;
     const call = (method: string, input: Record<string, unknown>) => (asked.push({ method, input }), new Promise((resolve) => (answer = resolve)));
-    const studio = { framePixels: () => new Uint8Array(4) };
+    const studio = { framePixels: () => ({ pixels: new Uint8Array(4), width: 100, height: 100, covered: new Uint32Array() }) };
     const fromHere = new FromHere({ store, studio } as unknown as Services, { call } as unknown as ConstructorParameters<typeof FromHere>[1], { ready: async () => void waited.push('film') });
     return { store, asked, waited, fromHere, answer: () => answer(FIT) };
   }

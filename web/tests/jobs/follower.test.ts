@@ -86,7 +86,7 @@ function bench(missing: readonly number[] = []) {
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
   const mesh = { vertices: new Float32Array(), triangles: new Uint32Array() };
-  const studio = { framePixels: () => new Uint8Array(64), meshOf: () => mesh };
+  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }), meshOf: () => mesh };
   const femur = worker(missing);
   const workers = { femur, tibia: worker([]) };
   const searched: string[] = [];

@@ -20,7 +20,7 @@ function bench({ pixels = true } = {}) {
     asked.push({ method, pose });
     return verdicts.shift() ?? { word: 'doubtful', because: `as ${method} says` };
   };
-  const studio = { framePixels: () => (pixels ? new Uint8Array(4) : null) };
+  const studio = { framePixels: () => (pixels ? { pixels: new Uint8Array(4), width: 2, height: 2, covered: new Uint32Array() } : null) };
   new HandJudge({ store, studio } as unknown as ConstructorParameters<typeof HandJudge>[0], { call } as unknown as ConstructorParameters<typeof HandJudge>[1]);
   store.perform(addFrames([{ id: 'f', name: 'f', source: 's', indexInSource: 0, width: 100, height: 100 }]));
   store.perform(setCalibration({ name: 'c', text: 'c' }));

@@ -24,7 +24,7 @@ function bench() {
       const report = (fraction: number) => onProgress?.({ fraction });
       asked.push({ input, report, answer: () => (resolve(facts), settle()) });
     });
-  const studio = { framePixels: () => new Uint8Array(64) };
+  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }) };
   const oneClick = new OneClick({ store, studio } as never, { call } as never, { ready: async () => undefined });
   const click = (column: number) => void oneClick.ask([framePoint(column, 1)], { frameId: 'f', component: store.ui.component }, false);
   const outlineOf = (component: 'femur' | 'tibia') => cellOf(store.doc, 'f', component).outline;

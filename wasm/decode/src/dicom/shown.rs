@@ -53,7 +53,7 @@ fn shutter(stated: &Stated, (width, height): (u32, u32)) -> (Option<Shutter>, Op
             open => {
                 let percent = 100.0 * (1.0 - open as f64 / area as f64);
                 let note = format!(
-                    "The file's shutter covers {percent:.0} % of the picture; pixels there are as stored."
+                    "The file's shutter covers {percent:.0} % of the picture; nothing is read there."
                 );
                 return (Some(shutter.clone()), Some(note));
             }

@@ -70,9 +70,12 @@ async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Prom
 function copied(raw: RawFrame, rate: number | null): DecodedFrame {
   const { width, height, windowCentre: centre, windowWidth, notes } = raw;
   const stated = centre !== undefined && windowWidth !== undefined;
+  // The pixels that it covers are others then.
+  const covered = raw.cover() as DecodedFrame['covered'];
   return {
     width,
     height,
+    covered,
     pixels: raw.pixels as DecodedFrame['pixels'],
     window: stated ? { centre, width: windowWidth } : null,
     notes,

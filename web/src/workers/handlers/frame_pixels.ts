@@ -1,6 +1,8 @@
 import { FrameImage } from '../../pkg/core/fluoropose_wasm.js';
 
 /** Moves a frame's pixels into WASM memory. */
-export function imageOf({ pixels, width, height }: { pixels: Uint8Array | Uint16Array; width: number; height: number }): FrameImage {
-  return pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+export function imageOf({ pixels, width, height, covered }: { pixels: Uint8Array | Uint16Array; width: number; height: number; covered?: Uint32Array }): FrameImage {
+  const image = pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+  if (covered) image.cover(covered);
+  return image;
 }

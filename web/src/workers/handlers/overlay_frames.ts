@@ -1,10 +1,10 @@
-import init, { FrameImage, Model, Undistorter } from '../../pkg/page/fluoropose_page.js';
+import init, { type FrameImage, Model, Undistorter } from '../../pkg/page/fluoropose_page.js';
 import address from '../../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../../document/types';
 import { followBorder } from '../../painting/border';
 import { paintPreprocessed } from '../../painting/preprocessing';
+import { takenFrame } from '../../painting/taken_frame';
 import { numbersAt } from '../../painting/wasm_view';
-import type { DecodedFrame } from '../protocol/decode';
 import type { OverlayFrame, OverlayModel } from '../protocol/overlay';
 
 /** A frame as it is shown, and what lies on it. */
@@ -42,7 +42,7 @@ export class OverlayFrames {
   }
 
   #paint({ frame, window, preprocessing, undistorted }: OverlayFrame): void {
-    const taken = imageOf(frame);
+    const taken = takenFrame(frame);
     const image = undistorted ? this.#undistorterOf(undistorted).frame(taken) : taken;
     const suggested = frame.window ?? windowOf(taken);
     this.#canvas.width = frame.width;
@@ -75,10 +75,6 @@ export class OverlayFrames {
     }
     return this.#undistorter.made;
   }
-}
-
-function imageOf({ pixels, width, height }: DecodedFrame): FrameImage {
-  return pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
 }
 
 function windowOf(image: FrameImage): GreyWindow {

@@ -1,3 +1,5 @@
+import type { FramePixels } from './frame_pixels';
+
 export interface ModelMesh {
   /** x, y, z of each vertex, millimetres. */
   readonly vertices: Float32Array<ArrayBuffer>;
@@ -7,10 +9,7 @@ export interface ModelMesh {
   readonly notes?: readonly string[];
 }
 
-export interface DecodedFrame {
-  readonly width: number;
-  readonly height: number;
-  readonly pixels: Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer>;
+export interface DecodedFrame extends FramePixels {
   /** As the file suggests, if it does. */
   readonly window: { readonly centre: number; readonly width: number } | null;
   /** What was done to the pixels on the way, a sentence each. */

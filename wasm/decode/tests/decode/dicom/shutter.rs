@@ -66,7 +66,7 @@ fn edges_count_from_one_and_are_open() {
         assert_eq!(picture(&frame), due, "{syntax}");
         assert_eq!(
             frame.notes,
-            ["The file's shutter covers 81 % of the picture; pixels there are as stored."]
+            ["The file's shutter covers 81 % of the picture; nothing is read there."]
         );
     }
 }
