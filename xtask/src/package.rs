@@ -1,5 +1,7 @@
 //! Verb `package`: the page as a folder for any static host, the page as one file, and the npm module.
 
+mod twice;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +28,9 @@ pub(crate) struct Args {
     /// The Python package, as a wheel for this kind of machine and Python 3.10 or later
     #[arg(long)]
     python: bool,
+    /// Then package a copy of the sources in another folder, and fail where a bit differs
+    #[arg(long, conflicts_with = "python")]
+    twice: bool,
 }
 
 /// Runs the verb.
@@ -47,6 +52,9 @@ pub(crate) fn run(args: Args) -> Result<()> {
         size(bytes)
     );
     println!("For npm:           {}", package.module.display());
+    if args.twice {
+        twice::compare(&out)?;
+    }
     Ok(())
 }
 
