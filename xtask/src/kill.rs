@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 
-use crate::driver;
+use crate::driver::{self, Browser};
 
 /// Options of `kill`.
 #[derive(clap::Args)]
@@ -20,6 +20,9 @@ pub(crate) struct Args {
     /// Only ways of which the name has this part, as "evicted"
     #[arg(long, value_name = "WORDS", default_value = "")]
     only: String,
+    /// In Firefox, whose driver can kill the browser and load the page anew, and no more
+    #[arg(long)]
+    firefox: bool,
 }
 
 /// Runs the verb.
@@ -28,7 +31,12 @@ pub(crate) struct Args {
 /// For what cannot be built or driven, and where work was lost.
 pub(crate) fn run(args: Args) -> Result<()> {
     let (trials, seed) = (args.trials.to_string(), args.seed.to_string());
-    let all_well = driver::drive(&["kills/main.mjs", &trials, &seed, &args.only])?;
+    let browser = match args.firefox {
+        true => Browser::Firefox,
+        false => Browser::Chromium,
+    };
+    let words = ["kills/main.mjs", &trials, &seed, &args.only];
+    let all_well = driver::drive_in(browser, &words)?;
     ensure!(
         all_well,
         "work was lost, or trials did not come to their end"

@@ -211,6 +211,9 @@ export const ENDS = {
   },
 };
 
+/** What needs no debugger of Chromium, which makes tabs crash and storage full. */
+export const WITHOUT_DEBUGGER = ['browser is killed', 'reload in any state'];
+
 /** A new window with the page. */
 async function window() {
   const page = await openWindow({ serviceWorkers: 'block' });

@@ -1,15 +1,15 @@
 /** Ends work in the page in every way, again and again, and tells what was lost: `cargo xtask kill` starts it. */
 import { writeFile } from 'node:fs/promises';
 import { argv, exit } from 'node:process';
-import { browser } from '../support/browser.mjs';
-import { ENDS } from './ends.mjs';
+import { browser, IN_FIREFOX } from '../support/browser.mjs';
+import { ENDS, WITHOUT_DEBUGGER } from './ends.mjs';
 
 /** @typedef {{ trials: number, edits: number, unsaved: number, broughtBack: number, lost: number, undecided: number }} Row */
 
 const SIDE_BY_SIDE = 2;
 
 const [, , trials = '200', seed = '1', chosen = '', file = ''] = argv;
-const names = Object.keys(ENDS).filter((name) => name.includes(chosen));
+const names = Object.keys(ENDS).filter((name) => name.includes(chosen) && (!IN_FIREFOX || WITHOUT_DEBUGGER.includes(name)));
 /** @type {Record<string, Row>} */
 const rows = Object.fromEntries(names.map((name) => [name, { trials: 0, edits: 0, unsaved: 0, broughtBack: 0, lost: 0, undecided: 0 }]));
 let next = 0;

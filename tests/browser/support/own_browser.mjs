@@ -1,11 +1,11 @@
 /** A browser of its own on a profile, as a person starts it, to be killed. */
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { readFile } from 'node:fs/promises';
+import { readdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after } from 'node:test';
-import { chromium } from 'playwright-core';
-import { ADDRESS, ARGUMENTS, PATIENCE, setting, until } from './browser.mjs';
+import { chromium, firefox } from 'playwright-core';
+import { ADDRESS, ARGUMENTS, IN_FIREFOX, PATIENCE, setting, until } from './browser.mjs';
 
 /** @type {(() => Promise<void>)[]} */
 const running = [];
@@ -13,6 +13,7 @@ after(() => Promise.all(running.map((kill) => kill())));
 
 /** @param {string} profile a folder */
 export async function startBrowser(profile) {
+  if (IN_FIREFOX) return startFirefox(profile);
   const address = [...ARGUMENTS, '--headless=new', '--remote-debugging-port=0', `--user-data-dir=${profile}`, 'about:blank'];
   const child = spawn(setting('FLUOROPOSE_CHROMIUM'), address, { detached: true, stdio: 'ignore' });
   const gone = new Promise((resolve) => child.once('exit', resolve));
@@ -33,6 +34,33 @@ export async function startBrowser(profile) {
     return tab;
   };
   return { page, kill };
+}
+
+/** @param {string} profile a folder */
+async function startFirefox(profile) {
+  const options = { channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX'), viewport: { width: 1440, height: 900 } };
+  const context = await firefox.launchPersistentContext(profile, options);
+  const pids = await processesOf(profile);
+  assert(pids.length > 0, 'the browser has a process');
+  const kill = async () => {
+    for (const pid of pids.splice(0)) process.kill(pid, 'SIGKILL');
+    await context.close().catch(() => undefined);
+  };
+  running.push(kill);
+  const page = async () => {
+    const tab = await context.newPage();
+    tab.setDefaultTimeout(PATIENCE);
+    await tab.goto(ADDRESS);
+    return tab;
+  };
+  return { page, kill };
+}
+
+/** Those that were started with a folder. Only where the system tells (Linux). @param {string} profile */
+async function processesOf(profile) {
+  const numbers = (await readdir('/proc')).filter((name) => /^\d+$/.test(name));
+  const words = await Promise.all(numbers.map((pid) => readFile(`/proc/${pid}/cmdline`, 'utf8').catch(() => '')));
+  return numbers.filter((_, at) => words[at].split('\0').includes(profile)).map(Number);
 }
 
 /** Ports that a killed browser left behind are not taken for the new one's. @type {Map<string, string>} */
