@@ -68,14 +68,21 @@ export class Bridge<P extends Protocol<P>> {
     options: CallOptions<P[K]['progress']> = {},
   ): Promise<P[K]['output']> {
     const over = work.begin();
+    const { signal } = options;
+    let abort = () => undefined as void;
     const answer = new Promise<P[K]['output']>((resolve, reject) => {
-      if (options.signal?.aborted) return reject(new Aborted());
+      if (signal?.aborted) return reject(new Aborted());
       const waiting = { method, input, options, resolve, reject } as Waiting;
-      options.signal?.addEventListener('abort', () => this.#abort(waiting), { once: true });
+      abort = () => this.#abort(waiting);
+      signal?.addEventListener('abort', abort, { once: true });
       this.#queue.push(waiting);
       this.#sendNext();
     });
-    return answer.finally(over);
+    return answer.finally(() => {
+      // One signal may be of all calls of a film, with what each was about.
+      signal?.removeEventListener('abort', abort);
+      over();
+    });
   }
 
   dispose(): void {

@@ -61,6 +61,17 @@ describe('bridge', () => {
     expect(ports[0]?.sent.map((message) => message.type === 'call' && message.input)).toEqual([0, 5, 3, 4, 2, 1]);
   });
 
+  it('leaves nothing on the signal of a call that is over', async () => {
+    const { bridge, ports } = bench();
+    const { signal } = new AbortController();
+    const [added, removed] = [vi.spyOn(signal, 'addEventListener'), vi.spyOn(signal, 'removeEventListener')];
+    const call = bridge.call('echo', 1, { signal });
+    ports[0]?.answer({ type: 'done', id: 1, output: 10 });
+    await call;
+    expect(removed.mock.calls.map(([type, abort]) => [type, abort])).toEqual(added.mock.calls.map(([type, abort]) => [type, abort]));
+    expect(added).toHaveBeenCalledOnce();
+  });
+
   it('goes on after a call that could not be posted', async () => {
     const { bridge, ports } = bench();
     const first = bridge.call('echo', 1);
