@@ -19,6 +19,7 @@ mod package;
 mod page;
 mod serve;
 mod setup;
+mod soak;
 mod sources;
 mod static_server;
 mod suite;
@@ -55,6 +56,8 @@ enum Verb {
     Fuzz(fuzz::Args),
     /// End work in the page in every way, and tell what was lost
     Kill(kill::Args),
+    /// Work in one page at random for long, and tell what it holds in memory
+    Soak(soak::Args),
     /// Change the sources at random, and tell which changes no test notices
     Mutants(mutants::Args),
     /// Check the layout of the sources: layers, cycles between files, words
@@ -133,6 +136,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Conformance(args) => conformance::run(args),
         Verb::Fuzz(args) => fuzz::run(args),
         Verb::Kill(args) => kill::run(args),
+        Verb::Soak(args) => soak::run(args),
         Verb::Mutants(args) => mutants::run(args),
         Verb::Tidy(args) => tidy::run(args),
         Verb::Supply(args) => supply::run(args),

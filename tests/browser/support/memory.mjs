@@ -1,0 +1,79 @@
+/** What a page holds in memory: its own heap, those of its workers, and what WebAssembly has. Chromium only. */
+import assert from 'node:assert/strict';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('playwright-core').CDPSession} Session */
+/** @typedef {{ page: number, workers: number, wasm: number, count: number }} Memory bytes, and how many workers there are */
+
+/** Asks the debugger of a page or of a worker. @typedef {(method: string, params?: object) => Promise<any>} Ask */
+
+export class MemoryOf {
+  /** @type {Map<string, Ask>} */
+  #workers = new Map();
+  /** @type {Map<string, (message: any) => void>} answers that are waited for */
+  #waiting = new Map();
+  #last = 0;
+
+  /** @param {Session} session */
+  constructor(session) {
+    /** @type {Ask} */
+    this.page = (method, params) => session.send(/** @type {any} */ (method), /** @type {any} */ (params));
+    session.on('Target.attachedToTarget', ({ sessionId }) => this.#workers.set(sessionId, this.#asking(session, sessionId)));
+    session.on('Target.detachedFromTarget', ({ sessionId }) => this.#workers.delete(sessionId));
+    session.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => {
+      const answer = JSON.parse(message);
+      this.#waiting.get(`${sessionId} ${answer.id}`)?.(answer);
+    });
+  }
+
+  /** @param {Page} page */
+  static async of(page) {
+    const session = await page.context().newCDPSession(page);
+    const memory = new MemoryOf(session);
+    await session.send('Target.setAutoAttach', { autoAttach: true, waitForDebuggerOnStart: false, flatten: false });
+    return memory;
+  }
+
+  /** After everything that nobody holds has been let go. @returns {Promise<Memory>} */
+  async now() {
+    const page = await heldBy(this.page);
+    const workers = await Promise.all([...this.#workers.values()].map((ask) => heldBy(ask).catch(() => null)));
+    const alive = workers.filter((worker) => worker !== null);
+    const sum = (/** @type {'heap' | 'wasm'} */ part) => alive.reduce((total, worker) => total + worker[part], 0);
+    return { page: page.heap, workers: sum('heap'), wasm: page.wasm + sum('wasm'), count: alive.length };
+  }
+
+  /** @param {Session} session @param {string} sessionId @returns {Ask} */
+  #asking(session, sessionId) {
+    return (method, params = {}) => {
+      const id = ++this.#last;
+      const answered = new Promise((resolve, reject) => {
+        // One that ends meanwhile answers no more.
+        const late = setTimeout(() => reject(new Error(`${method} is not answered`)), 20_000);
+        this.#waiting.set(`${sessionId} ${id}`, ({ result, error }) => {
+          clearTimeout(late);
+          this.#waiting.delete(`${sessionId} ${id}`);
+          if (error) reject(new Error(`${method}: ${error.message}`));
+          else resolve(result);
+        });
+      });
+      session.send('Target.sendMessageToTarget', { sessionId, message: JSON.stringify({ id, method, params }) }).catch(() => undefined);
+      return answered;
+    };
+  }
+}
+
+/** @param {Ask} ask */
+async function heldBy(ask) {
+  await ask('HeapProfiler.enable');
+  await ask('HeapProfiler.collectGarbage');
+  const { usedSize } = await ask('Runtime.getHeapUsage');
+  const group = { objectGroup: 'memory' };
+  const { result } = await ask('Runtime.evaluate', { expression: 'WebAssembly.Memory.prototype', ...group });
+  const { objects } = await ask('Runtime.queryObjects', { prototypeObjectId: result.objectId, ...group });
+  const sum = 'function () { return this.reduce((sum, memory) => sum + memory.buffer.byteLength, 0); }';
+  const summed = await ask('Runtime.callFunctionOn', { objectId: objects.objectId, functionDeclaration: sum, returnByValue: true });
+  await ask('Runtime.releaseObjectGroup', group);
+  assert(typeof summed.result.value === 'number', 'the debugger tells what WebAssembly has');
+  return { heap: usedSize, wasm: summed.result.value };
+}
