@@ -18,8 +18,6 @@ const FRAMES = 8;
 const COMPONENTS = /** @type {const} */ (['femur', 'tibia']);
 /** After so long, and as often as everything was done, what is held is compared with what is held at the end: memory of WebAssembly never shrinks. */
 const SETTLED = { ms: 5 * 60_000, passes: 3 };
-/** Earlier works. */
-const KEPT = 3;
 /** Between looks at the memory. */
 const LOOK_MS = 60_000;
 /** By so much it may be more at the end. */
@@ -101,21 +99,10 @@ function isFlat() {
   return told.every((flat) => flat);
 }
 
-/** A new work; of the earlier ones, which are kept until a person deletes them, a few stay. */
+/** A new work. Earlier ones stay. */
 async function open() {
   await page.keyboard.press('Escape');
   await page.keyboard.press('Shift+Alt+n');
-  await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
-  await atRest(page);
-  const rows = page.getByRole('button', { name: /^Delete .* from this browser$/ });
-  const sure = page.getByRole('button', { name: /^Really delete / });
-  for (let count = await rows.count(); count > KEPT; count = await rows.count()) {
-    await rows.last().click();
-    // It asks once more, by another name.
-    await sure.click();
-    await sure.waitFor({ state: 'detached' });
-    await until(() => rows.count(), (now) => now < count, 'an earlier work to be deleted');
-  }
   await tracing.openDemonstration(page);
 }
 
