@@ -59,7 +59,7 @@ fn off(one: &Pose, other: &Pose, model: &OwnedModel) -> [f64; 2] {
 }
 
 #[test]
-fn one_of_the_expected_poses_is_near_however_far_the_knee_is_bent_and_whatever_the_axes() {
+fn one_of_the_expected_poses_is_near_at_any_flexion_and_whatever_the_axes() {
     let turned = Pose {
         rotation: [[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         translation: [11.0, -5.0, 40.0],
