@@ -31,6 +31,8 @@ mod film_reading;
 #[cfg(feature = "alloc")]
 mod following;
 mod frame_pose;
+mod in_joint;
+mod joint_search;
 mod look;
 mod meeting;
 mod motion;
@@ -64,10 +66,12 @@ pub use following::{Following, KnownFemur};
 pub use frame_pose::{
     FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
 };
+pub use in_joint::{BENDS, InJoint, Limb};
+pub use joint_search::JointSearch;
 pub use look::{Looked, Missing, look};
 pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};
-pub use near::{NEAR, near_poses};
+pub use near::{NEAR, near_poses, near_scored};
 pub use search_order::{TRIES, frames_to_search, run_to_search};
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};

@@ -18,7 +18,7 @@ mod correlation;
 mod depth;
 mod drawing;
 mod drawn;
-mod edge;
+pub(crate) mod edge;
 mod edge_bias;
 mod effort;
 mod equations;

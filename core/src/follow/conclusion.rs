@@ -73,7 +73,9 @@ impl Conclusion {
     #[must_use]
     pub fn of(cell: &Cell, trust: &Trust) -> Self {
         let (state, why) = match (&cell.looked, cell.fixed, trust.distrust) {
-            (_, true, _) => (State::Fixed, Why::GivenByPerson),
+            (_, true, None) => (State::Fixed, Why::GivenByPerson),
+            // It stays as it is, and is not believed.
+            (_, true, Some(distrust)) => (State::Fixed, Why::Distrusted(distrust)),
             (None, ..) => (State::Unsolved, Why::NeverReached),
             (Some(looked), _, distrust) => match (looked.found, distrust) {
                 (Err(Missing::Outside), _) => (State::Untrackable, Why::Outside(looked.known)),
@@ -103,7 +105,8 @@ impl Conclusion {
     /// Whether the pose is to be trusted.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
-        matches!(self.state, State::Fixed | State::Followed)
+        let doubted = matches!(self.why, Why::Distrusted(_));
+        matches!(self.state, State::Fixed | State::Followed) && !doubted
     }
 }
 

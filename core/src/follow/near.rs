@@ -8,6 +8,7 @@ use crate::finder::nearby::about;
 use crate::image::profile::grey_across;
 use crate::math::{norm, radians, scale, sin_cos};
 use crate::pose::Pose;
+use crate::refine::edge::is_known;
 use crate::refine::{
     ImageTarget, OutlineSample, Polarity, RefineError, RefineMemory, outline_samples,
 };
@@ -58,6 +59,22 @@ pub fn near_poses(
     step: f64,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<Pose, NEAR>, RefineError> {
+    let scored = near_scored(subject, image, expected, reach_px, step, memory)?;
+    Ok(scored.into_iter().map(|(_, pose)| pose).collect())
+}
+
+/// The same with the mean step along each outline, in usual ones.
+///
+/// # Errors
+/// As of [`near_poses`].
+pub fn near_scored(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    expected: &Pose,
+    reach_px: f64,
+    step: f64,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Vec<(f64, Pose), NEAR>, RefineError> {
     let middle = subject.model.bounds().centre;
     let mut best: Vec<Place, NEAR> = Vec::new();
     for x in [0.0, OUT_OF_PLANE_DEG, -OUT_OF_PLANE_DEG] {
@@ -75,7 +92,7 @@ pub fn near_poses(
     }
     Ok(best
         .iter()
-        .map(|place| place.pose(subject, expected))
+        .map(|place| (place.score, place.pose(subject, expected)))
         .collect())
 }
 
@@ -184,7 +201,11 @@ impl Sliding<'_> {
         let (mut sum, mut known) = (0.0, 0usize);
         for &[column, row, right, down] in samples {
             let place = [0, 1].map(|k| [column, row][k] + self.outline.middle[k] + shift[k]);
-            let grey = |t| grey_across(self.image.frame, place, [right, down], &[1.0], t);
+            let grey = |t| {
+                is_known(self.image, place, [right, down], t)
+                    .then(|| grey_across(self.image.frame, place, [right, down], &[1.0], t))
+                    .flatten()
+            };
             let (Some(outside), Some(inside)) = (grey(HALF_PX), grey(-HALF_PX)) else {
                 continue;
             };

@@ -38,6 +38,9 @@ pub struct TrustLimits {
     pub least_misfit_px: f64,
     /// Most misfit whatever is usual, pixels: a film may be wrong as a whole.
     pub most_misfit_px: f64,
+    /// The same of a pose that a person gave, who does not see a pixel: one that leaves more lies on something else, or in another
+    /// frame.
+    pub fixed_misfit_px: f64,
     /// Least strength of the edges, in usual ones of the film.
     pub strength: f64,
     /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
@@ -68,6 +71,7 @@ impl TrustLimits {
         misfit: 1.8,
         least_misfit_px: 0.2,
         most_misfit_px: 0.9,
+        fixed_misfit_px: 2.0,
         strength: 0.6,
         jump_deg: 1.5,
         jump_mm: 2.0,
@@ -295,10 +299,13 @@ fn judge(
     let Some((one, found)) = film.get(at).and_then(|one| Some((one, one.found?))) else {
         return Trust::default();
     };
-    if one.fixed {
-        return Trust::default();
-    }
     let mut worst = Trust::default();
+    if one.fixed {
+        let px = found.misfit_px;
+        let apart = Distrust::Apart(px, usual.misfit_px);
+        worst.weigh(px / limits.fixed_misfit_px, apart);
+        return worst;
+    }
     if let Some(SideMargin { rival, margin }) = one.side_margin {
         let open = if margin < limits.side {
             2.0 - margin
@@ -396,6 +403,22 @@ mod tests {
         };
         assert_eq!(told(0.0), Some(Distrust::Unmet(0.5)));
         assert_eq!(told(980.0), Some(Distrust::Behind(980.0)));
+    }
+
+    #[test]
+    fn what_a_person_fixed_beside_the_edges_is_doubtful_and_a_hands_jitter_is_not() {
+        let judged = |misfit_px: f64| {
+            let film = [FrameEvidence {
+                found: Some(turned(0.0, misfit_px)),
+                fixed: true,
+                ..FrameEvidence::default()
+            }];
+            let (mut sorted, mut trusts) = ([0.0], [Trust::default()]);
+            let usual = &TrustLimits::USUAL;
+            judge_film(&film, usual, &[0.0; 3], &mut sorted, &mut trusts);
+            trusts[0].distrust.map(|why| why.word())
+        };
+        assert_eq!([1.4, 2.9].map(judged), [None, Some("residual")]);
     }
 
     #[test]

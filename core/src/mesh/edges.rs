@@ -14,6 +14,8 @@ mod packed;
 pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
 pub use edge::{MeshEdge, RimEdge};
+#[cfg(feature = "alloc")]
+pub(super) use link::turn;
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;
 pub(crate) use measured::Facing;

@@ -5,13 +5,15 @@ use alloc::vec::Vec;
 
 use crate::mesh::edges::{
     EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, SurfaceFaults, link, link_needed,
+    turn,
 };
 use crate::mesh::model::Model;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, SurfaceMark};
 
 /// Vertices, triangles and the edges that silhouettes are drawn from.
 ///
-/// It keeps the two vectors that it was given and reads them three numbers at a time.
+/// It keeps the two vectors that it was given and reads them three numbers at a time. Triangles that run against their neighbours are
+/// turned: a ray's path through the part is a sum over those that it enters and leaves by.
 #[derive(Clone, Debug)]
 pub struct OwnedModel {
     vertices: Vec<f32>,
@@ -35,9 +37,16 @@ impl OwnedModel {
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
-    pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, MeshError> {
+    pub fn new(vertices: Vec<f32>, mut triangles: Vec<u32>) -> Result<Self, MeshError> {
         let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
-        let (bounds, (edges, faults)) = (mesh.bounds(), linked(&mesh));
+        let bounds = mesh.bounds();
+        let (mut edges, faults, mut numbers) = linked(&mesh);
+        if faults.flipped > 0 {
+            let corners = vertices.as_chunks().0;
+            let given = triangles.as_chunks_mut().0;
+            turn(corners.len(), &mut numbers, given);
+            edges = linked(&Mesh::checked(corners, given, bounds)).0;
+        }
         Ok(Self {
             vertices,
             triangles,
@@ -47,7 +56,7 @@ impl OwnedModel {
         })
     }
 
-    /// What was found wrong with the surface; nothing of it changes what is drawn.
+    /// What was found wrong with the surface as it was given; nothing of it changes what is drawn.
     #[must_use]
     pub fn faults(&self) -> SurfaceFaults {
         self.faults
@@ -74,8 +83,8 @@ impl OwnedModel {
     }
 }
 
-/// The edges of a mesh in memory of their own, and what was counted on the way.
-fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults) {
+/// The edges of a mesh in memory of their own, what was counted on the way, and the numbers that were worked in.
+fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults, Vec<u32>) {
     let needs = link_needed(mesh);
     let mut kept = OwnedEdges {
         boxes: vec![EdgeBox::default(); needs.groups],
@@ -83,9 +92,10 @@ fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults) {
         rims: vec![RimEdge::default(); needs.halves],
         mark: mesh.mark(),
     };
+    let mut numbers = vec![0; needs.numbers];
     let memory = LinkMemory {
         halves: &mut vec![MeshEdge::default(); needs.halves],
-        numbers: &mut vec![0; needs.numbers],
+        numbers: &mut numbers,
         boxes: &mut kept.boxes,
         groups: &mut kept.groups,
         rims: &mut kept.rims,
@@ -100,12 +110,13 @@ fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults) {
     kept.groups.truncate(groups);
     kept.rims.truncate(rims);
     kept.rims.shrink_to_fit();
-    (kept, faults)
+    (kept, faults, numbers)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::{cross, dot};
 
     #[test]
     fn numbers_stay_where_they_came_and_a_closed_surface_has_no_faults() {
@@ -120,6 +131,26 @@ mod tests {
             (first, 4)
         );
         assert_eq!(owned.faults(), SurfaceFaults::default());
+    }
+
+    #[test]
+    fn what_runs_against_its_neighbours_is_turned_and_told() {
+        let vertices = vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let closed = vec![0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
+        let mut mixed = closed.clone();
+        mixed.swap(4, 5);
+        mixed.swap(9, 10);
+        let [as_it_was, turned] = [closed, mixed]
+            .map(|triangles| OwnedModel::new(vertices.clone(), triangles).expect("valid"));
+        assert_eq!(turned.faults().flipped, 2);
+        let direction = |owned: &OwnedModel| {
+            let model = owned.as_model();
+            let corner = |vertex: u32| model.vertices()[vertex as usize].map(f64::from);
+            let of = |[a, b, c]: &[u32; 3]| dot(&corner(*a), &cross(&corner(*b), &corner(*c)));
+            assert!(model.edges().is_some());
+            model.triangles().iter().map(of).collect::<Vec<_>>()
+        };
+        assert_eq!(direction(&turned), direction(&as_it_was));
     }
 
     #[test]

@@ -61,10 +61,12 @@ impl OwnedModel {
             ));
         }
         if faults.flipped > 0 {
-            let triangles = count(faults.flipped, "triangle runs", "triangles run");
-            remarks.push(format!(
-                "{triangles} against the neighbours; this changes nothing"
-            ));
+            let triangles = count(
+                faults.flipped,
+                "triangle ran against the neighbours and was turned",
+                "triangles ran against the neighbours and were turned",
+            );
+            remarks.push(triangles);
         }
         if faults.degenerate > 0 {
             let triangles = count(faults.degenerate, "triangle covers", "triangles cover");
@@ -125,9 +127,6 @@ mod tests {
             remarks[0].contains("4 sides of triangles have no neighbour"),
             "{remarks:?}"
         );
-        assert!(
-            remarks[1].contains("1 triangle runs against"),
-            "{remarks:?}"
-        );
+        assert!(remarks[1].contains("1 triangle ran against"), "{remarks:?}");
     }
 }

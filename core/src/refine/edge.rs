@@ -62,7 +62,7 @@ fn read(
 }
 
 /// Whether the pixel at a distance from a place along a normal says anything of the implant.
-pub(super) fn is_known(image: &ImageTarget<'_>, place: [f64; 2], normal: [f64; 2], t: f64) -> bool {
+pub(crate) fn is_known(image: &ImageTarget<'_>, place: [f64; 2], normal: [f64; 2], t: f64) -> bool {
     let place = [0, 1].map(|axis| place[axis] + t * normal[axis]);
     !image
         .unknown

@@ -9,6 +9,7 @@ mod flips;
 mod fuzz;
 mod golden;
 mod implant;
+mod in_joint;
 mod joint;
 mod library;
 mod made_implant;

@@ -23,7 +23,7 @@ use fluoropose_phantom::picture::write_grey;
 use fluoropose_phantom::stl;
 use fluoropose_tests::{femur, surface, tibia};
 
-const SIDE: usize = 512;
+pub(crate) const SIDE: usize = 512;
 const FRAMES: usize = 6;
 /// Grey value of a frame in which nothing is.
 const EMPTY: u8 = 200;
@@ -45,7 +45,7 @@ impl Drop for Short {
 }
 
 /// Two components of different darkness, drawn four times as finely as they are seen, and a little noise.
-fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
+pub(crate) fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
     const FINE: usize = 4;
     let side = SIDE * FINE;
     let pitch = 0.746 / FINE as f64;

@@ -105,6 +105,17 @@ pub fn link<'e>(
     })
 }
 
+/// Makes the triangles that run against their neighbours run as these do; `numbers` as [`link`] left them.
+#[cfg(feature = "alloc")]
+pub(in crate::mesh) fn turn(vertices: usize, numbers: &mut [u32], triangles: &mut [[u32; 3]]) {
+    let mut orientation = Orientation::of(numbers.get_mut(2 * vertices..).unwrap_or_default());
+    for (number, [_, b, c]) in (0..).zip(triangles) {
+        if orientation.root(number).1 {
+            core::mem::swap(b, c);
+        }
+    }
+}
+
 /// The sides of all triangles that cover anything, from the lower to the higher vertex: `forth` has the third vertex, `back`
 /// the triangle, `order` whether it runs that way. Gives their number.
 fn write_halves(

@@ -60,6 +60,11 @@ impl<'m> Orientation<'m> {
         Self { parents }
     }
 
+    /// As [`super::link`] left it.
+    pub(super) fn of(parents: &'m mut [u32]) -> Self {
+        Self { parents }
+    }
+
     /// The root of a triangle's tree, and whether the triangle runs against it.
     pub(super) fn root(&mut self, triangle: u32) -> (u32, bool) {
         let (mut at, mut against) = (triangle, 0);

@@ -5,10 +5,10 @@ use fluoropose::follow::{Anchor, frames_to_search};
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 use rayon::prelude::*;
 
-use super::anchors::{begin_beside, fixed_poses, found_in, given};
+use super::anchors::{begin_beside, begin_in_joint, fixed_poses, found_in, given, or_in_joint};
 use super::part::Part;
 use super::run::Run;
-use crate::files::grey;
+use crate::files::{Role, grey};
 use crate::options::most;
 
 /// So many fixed poses of a component are asked at most.
@@ -59,34 +59,65 @@ struct Search<'s> {
     anchors: Vec<Vec<Anchor>>,
     /// Frames that were searched.
     seen: Vec<usize>,
+    /// The anchors beside which joints have been looked for.
+    led: usize,
 }
 
 impl<'s> Search<'s> {
     /// With what a person gave.
     fn begin(run: &Run<'_>, parts: Vec<Part<'s>>) -> Result<Self> {
         let anchors = parts.iter().map(|part| given(run, part));
-        let anchors = anchors.collect::<Result<_>>()?;
+        let mut anchors = anchors.collect::<Result<Vec<_>>>()?;
+        let clicked = anchors.clone();
+        let others = others(&parts, &clicked);
+        let trays = parts.iter().zip(&mut anchors);
+        for (part, anchors) in trays.filter(|(part, _)| is_tray(part)) {
+            *anchors = or_in_joint(run, part, anchors, &others)?;
+        }
         let seen = Vec::new();
         Ok(Self {
             parts,
             anchors,
             seen,
+            led: 0,
         })
     }
 
-    /// Looks for what is missing in a whole frame; whether all is found then.
+    /// Looks for what is missing in a whole frame; whether all is found then. Femurs and others first: a tray is found by its joint
+    /// where its femur is known, sooner and surer than alone.
     fn alone(&mut self, run: &Run<'_>, frame: usize) -> Result<bool> {
+        self.in_joint(run)?;
         if !self.seen.contains(&frame) {
             self.seen.push(frame);
-            let depth = self.depth();
-            let both = self.parts.par_iter().zip(&mut self.anchors);
-            both.filter(|(_, anchors)| anchors.is_empty())
-                .try_for_each(|(part, anchors)| -> Result<()> {
-                    anchors.extend(found_in(run, part, frame, depth)?);
-                    Ok(())
-                })?;
+            for trays in [false, true] {
+                let depth = self.depth();
+                let both = self.parts.par_iter().zip(&mut self.anchors);
+                both.filter(|(part, anchors)| anchors.is_empty() && is_tray(part) == trays)
+                    .try_for_each(|(part, anchors)| -> Result<()> {
+                        anchors.extend(found_in(run, part, frame, depth)?);
+                        Ok(())
+                    })?;
+                self.in_joint(run)?;
+            }
         }
         Ok(self.is_whole())
+    }
+
+    /// Looks for what is missing where its joint leaves it beside what is known.
+    fn in_joint(&mut self, run: &Run<'_>) -> Result<()> {
+        let known = self.anchors.clone();
+        let led = known.iter().map(Vec::len).sum();
+        if led == self.led {
+            return Ok(());
+        }
+        self.led = led;
+        let others = others(&self.parts, &known);
+        for (part, anchors) in self.parts.iter().zip(&mut self.anchors) {
+            if anchors.is_empty() && part.limb.is_some() {
+                *anchors = begin_in_joint(run, part, &others)?;
+            }
+        }
+        Ok(())
     }
 
     /// How far away a component is that is known, mm: the others of its joint are there too.
@@ -102,8 +133,7 @@ impl<'s> Search<'s> {
     /// Looks for what is missing beside what was found; whether all is found then.
     fn beside(&mut self, run: &Run<'_>) -> Result<bool> {
         let alone = self.anchors.clone();
-        let others = self.parts.iter().zip(&alone);
-        let others: Vec<_> = others.map(|(part, own)| (part, own.as_slice())).collect();
+        let others = others(&self.parts, &alone);
         for (part, anchors) in self.parts.iter().zip(&mut self.anchors) {
             if anchors.is_empty() {
                 *anchors = begin_beside(run, part, &others)?;
@@ -123,6 +153,19 @@ impl<'s> Search<'s> {
     fn found(self) -> (Vec<Part<'s>>, Vec<Vec<Anchor>>) {
         (self.parts, self.anchors)
     }
+}
+
+fn is_tray(part: &Part<'_>) -> bool {
+    part.role() == Some(Role::Tibia)
+}
+
+/// Components with what is known of them.
+fn others<'o, 's>(
+    parts: &'o [Part<'s>],
+    known: &'o [Vec<Anchor>],
+) -> Vec<(&'o Part<'s>, &'o [Anchor])> {
+    let each = parts.iter().zip(known);
+    each.map(|(part, own)| (part, own.as_slice())).collect()
 }
 
 /// How well components are found in all: the sum of what the best frame of each scores.

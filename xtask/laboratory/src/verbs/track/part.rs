@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
-use fluoropose::follow::Subject;
+use fluoropose::follow::{Limb, Subject};
 use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
@@ -41,6 +41,8 @@ pub(super) struct Part<'s> {
     pub(super) planes: Vec<SymmetryPlane>,
     /// The rotation from the field's axes to the model's, where the shape tells it.
     pub(super) axes: Option<Pose>,
+    /// What its joint tells by, where its shape tells which way it lies.
+    pub(super) limb: Option<Limb<'s>>,
     pub(super) camera: Camera,
     pub(super) polarity: Polarity,
     calibration: &'s Calibration,
@@ -78,14 +80,18 @@ impl<'s> Part<'s> {
     ) -> Result<Self> {
         let mesh = model.as_model();
         let planes = symmetry_planes(mesh.mesh()).to_vec();
-        let axes = match component.role() {
-            Some(role) => {
-                let told = axes_of(&mesh, role, component.axes.as_deref())?;
-                let unsigned = || field_axes(mesh.mesh(), &planes, role.component());
-                told.map(|axes| axes.model_from_field).or_else(unsigned)
-            }
+        let told = match component.role() {
+            Some(role) => axes_of(&mesh, role, component.axes.as_deref())?,
             None => None,
         };
+        let kind = component.role().map(Role::component);
+        let unsigned = || field_axes(mesh.mesh(), &planes, kind?);
+        let axes = told.map(|axes| axes.model_from_field).or_else(unsigned);
+        let limb = kind.zip(told).map(|(component, axes)| Limb {
+            mesh: *model.as_model().mesh(),
+            component,
+            axes,
+        });
         Ok(Self {
             number,
             component,
@@ -93,6 +99,7 @@ impl<'s> Part<'s> {
             mesh,
             planes,
             axes,
+            limb,
             camera,
             polarity,
             calibration,

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, FramePose, From, refined_on_frame};
+use fluoropose::follow::{Anchor, FramePose, From, InJoint, JointSearch, refined_on_frame};
 use fluoropose::image::contour::Point;
 use fluoropose::pose::Pose;
 use fluoropose_tracing::one_click::{Answer, Prompt};
@@ -100,6 +100,41 @@ pub(super) fn searched(
             }
         }
         Ok(None)
+    })
+}
+
+/// The pose of a component in a frame where its joint leaves it `beside` the other one; `None` where it does not show there, or where the
+/// shape of either does not tell which way it lies.
+pub(super) fn in_joint(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    frame: usize,
+    beside: Beside<'_, '_>,
+) -> Result<Option<FramePose>> {
+    let (Some(own), Some(other)) = (&part.limb, &beside.part.limb) else {
+        return Ok(None);
+    };
+    let known = format!("{}-{}", beside.part.number, mark(beside.from));
+    let (number, phase) = (part.number, part.phase());
+    let key = format!("joint/{number}/{phase}/{frame}/{known}");
+    let what = format!("looked for beside the {}", beside.part.name());
+    run.step((part, frame), &what, &key, || {
+        let unknown = beside.part.silhouette(beside.pose)?;
+        let unknown = Some(unknown.mask());
+        let joint = InJoint::beside(other, beside.pose);
+        let stop = &run.request.stop;
+        part.see_beside(
+            run.film,
+            frame,
+            unknown.as_ref(),
+            |subject, image, memory| {
+                let mut search = JointSearch::new(image, &joint, own);
+                while search.step(subject, image, memory) {
+                    stop.check()?;
+                }
+                Ok(search.found().copied())
+            },
+        )?
     })
 }
 

@@ -100,6 +100,7 @@ impl Row {
     /// The word for how far the pose is to be trusted.
     pub fn verdict(&self) -> &'static str {
         match self.state {
+            State::Fixed if self.badness > 1.0 => "doubtful",
             State::Fixed | State::Followed => "good",
             State::Doubtful | State::Interpolated => "doubtful",
             State::Untrackable | State::Unsolved => "none",
