@@ -36,7 +36,7 @@ mod _native {
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
-    use crate::pixels::{frame_size, read_frames, write_frame};
+    use crate::pixels::{files_in, frame_size, read_frames, write_frame};
     #[pymodule_export]
     use crate::poses::{matrices, read_poses, write_poses};
     #[pymodule_export]

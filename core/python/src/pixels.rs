@@ -1,5 +1,6 @@
 //! Arrays as masks and frames.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
@@ -115,6 +116,13 @@ pub(crate) fn frame_size(path: PathBuf) -> PyResult<(u32, u32)> {
         file.size(0).context("there is no frame")
     };
     size().map_err(python_error)
+}
+
+/// The files of a folder of frames or masks, in the order of the frames.
+#[pyfunction]
+pub(crate) fn files_in(folder: PathBuf) -> PyResult<Vec<OsString>> {
+    let files = fluoropose_laboratory::files::files_in(&folder).map_err(python_error)?;
+    Ok(files.into_iter().map(PathBuf::into_os_string).collect())
 }
 
 /// Writes a frame of 8 or 16 bits as PNG.

@@ -5,7 +5,7 @@ use fluoropose::joint::JointFrame;
 use fluoropose::joint::course::{
     FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, cycle, levels, phases,
 };
-use fluoropose::joint::impossible::{Impossible, impossible};
+use fluoropose::joint::impossible::{Impossible, impossible, origins_apart};
 use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::pivot::{CondyleLine, Pivot, pivot_of_film};
 
@@ -32,6 +32,28 @@ pub fn impossibilities(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) ->
         _ => format!("frame {first} and {} more: {wrong}", count - 1),
     };
     kinds.into_iter().map(sentence).collect()
+}
+
+/// Whose origins translations are of, which no table of them is understood without.
+pub const ORIGINS: &str = "origins are those of the models' files, wherever they lie: translations of knees whose files have other origins cannot be compared, \
+rotations and lowest points can";
+
+/// What is told of translations that no knee has because of the files' origins: the first frame of them and how many there are, a sentence.
+/// `frames`: as of [`impossibilities`].
+#[must_use]
+pub fn origins_told(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) -> Option<String> {
+    let possible = frames.filter(|(_, numbers)| impossible(numbers).is_none());
+    let far = |(frame, numbers): (usize, _)| Some((frame, origins_apart(&numbers)?));
+    let far: Vec<(usize, f64)> = possible.filter_map(far).collect();
+    let &(first, mm) = far.first()?;
+    let more = match far.len() - 1 {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    Some(format!(
+        "frame {first}{more}: a translation would be {mm:.0} mm, which no knee has: the origin of a model's file lies far off its component. Translations \
+         (field_*, gs_*, anterior_posterior_mm and those beside it) are these origins'; rotations and lowest points are free of them"
+    ))
 }
 
 /// A frame of a film.
@@ -144,6 +166,13 @@ impl JointFilm {
     pub fn impossibilities(&self) -> Vec<String> {
         let numbers = |row: &JointRow| Some((row.number, row.joint?.numbers));
         impossibilities(self.rows.iter().filter_map(numbers))
+    }
+
+    /// What is told of translations that no knee has; see [`origins_told`].
+    #[must_use]
+    pub fn origins_told(&self) -> Option<String> {
+        let numbers = |row: &JointRow| Some((row.number, row.joint?.numbers));
+        origins_told(self.rows.iter().filter_map(numbers))
     }
 
     /// How many frames are doubtful.

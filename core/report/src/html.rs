@@ -9,7 +9,7 @@ use fluoropose::joint::shared::KnownTo;
 
 use crate::facts::{CONVENTIONS, Facts, filter, times};
 use crate::figure::figure;
-use crate::film::JointFilm;
+use crate::film::{JointFilm, ORIGINS};
 use crate::svg::escaped;
 
 const STYLE: &str = "\
@@ -300,7 +300,7 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
     say(
         "The centre of rotation takes what errs from frame to frame as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
     );
-    for remark in &facts.remarks {
+    for remark in facts.remarks.iter().chain(&film.origins_told()) {
         say(remark);
     }
     out.push_str("</ul>\n");
@@ -325,6 +325,7 @@ fn settings(out: &mut String, film: &JointFilm, facts: &Facts) {
     let (times, filter) = (times(film), filter(film));
     let always = [
         ("six numbers", CONVENTIONS),
+        ("translations", ORIGINS),
         ("times", &times),
         ("filter", &filter),
     ];

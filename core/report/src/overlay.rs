@@ -18,6 +18,9 @@ const ROWS: [usize; 2] = [480, 1080];
 /// Width of what stands beside the frame, and its heading's height, as parts of the picture's height.
 const BESIDE: f64 = 0.56;
 const HEADING: f64 = 0.16;
+/// Size of the lines that say why a frame is doubtful, as a part of the picture's height in percent, and how many there may be.
+const NOTE: f64 = 1.6;
+const NOTES: usize = 4;
 
 /// A frame as it is shown.
 #[derive(Clone, Copy, Debug)]
@@ -117,8 +120,9 @@ impl<'f> Overlay<'f> {
         let missing = missing.map(|(_, name)| format!("{name}: no pose"));
         let doubt = row.and_then(|row| row.doubt.clone());
         let notes = missing.chain(doubt.map(|doubt| format!("doubtful: {doubt}")));
-        for (at, note) in notes.take(2).enumerate() {
-            words(10.4 + 2.6 * at as f64, 1.9, QUIET, &note);
+        let lines = notes.flat_map(|note| broken(&note, wide / (NOTE * unit)));
+        for (at, line) in most(lines.collect(), NOTES).iter().enumerate() {
+            words(10.0 + 1.8 * at as f64, NOTE, QUIET, line);
         }
         if let Some(rate) = self.film.frames_per_s {
             let time = format!("{:.2} s", (number - 1) as f64 / rate);
@@ -126,6 +130,33 @@ impl<'f> Overlay<'f> {
             drawing.tinted(at, Anchor::End, 2.4 * unit, TEXT, &time);
         }
     }
+}
+
+/// Words as lines that are no longer than their place, in their size, broken between words.
+fn broken(text: &str, wide: f64) -> Vec<String> {
+    let width = |text: &str| Font::of(false).map_or(0.0, |font| font.width(text));
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}")) <= wide => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// The first few lines; where there are more, the last of them says so.
+fn most(mut lines: Vec<String>, count: usize) -> Vec<String> {
+    if lines.len() > count {
+        lines.truncate(count);
+        if let Some(last) = lines.last_mut() {
+            last.push('\u{2026}');
+        }
+    }
+    lines
 }
 
 /// Words that are too long for their place, in their size, are cut.

@@ -10,7 +10,7 @@ use fluoropose::pose::{EulerPose, Pose};
 use thiserror::Error;
 
 use crate::cell::{in_heading, quoted};
-use crate::film::{JointFilm, JointRow};
+use crate::film::{JointFilm, JointRow, ORIGINS};
 use crate::group::Group;
 
 /// Why a file cannot be written.
@@ -36,17 +36,20 @@ fn heading(film: &JointFilm) -> Vec<String> {
         ),
         None => "filter: none".to_owned(),
     };
-    vec![
+    let mut lines = vec![
         format!("fluoropose {}, joint table version 1", env!("CARGO_PKG_VERSION")),
         format!("study: {}; knee: {side}; frames are numbered as in the film, from 1; NaN where a component has no pose", in_heading(&film.name)),
         "units: mm, degrees (deg), percent of the tray's anterior-posterior extent from its posterior border".to_owned(),
         "field_*: origin of the femoral component in the axes of the tibial one; flexion, abduction, internal rotation: tibia against femur, z-x-y, which is Grood and Suntay's sequence".to_owned(),
         "gs_*: shift of the tibial origin from the femoral one along the axes of Grood and Suntay 1983".to_owned(),
+        format!("field_*, gs_*: {ORIGINS}"),
         "medial_*, lateral_*: lowest points of the femoral component above the tray's plate, from the plate's middle, anterior and medial positive; lift_off: lateral less medial height".to_owned(),
         format!("tray: {} mm deep, {} mm wide", film.plate_depth_mm, film.plate_width_mm),
         "checked: 1 where a person has checked both poses as they are".to_owned(),
         filter,
-    ]
+    ];
+    lines.extend(film.origins_told());
+    lines
 }
 
 /// The table of a film: every number of every frame, with standard deviations, the probability of lift-off, and what is doubtful.

@@ -16,6 +16,10 @@ const AP_PERCENT: RangeInclusive<f64> = -50.0..=150.0;
 const ACROSS_MM: RangeInclusive<f64> = -60.0..=60.0;
 const HEIGHT_MM: RangeInclusive<f64> = -4.0..=60.0;
 
+/// How far apart the middles of two components of a knee may lie along the tray's axes, mm: anterior, superior, medial. The field's translations
+/// are those of the files' origins, which may lie anywhere.
+const APART_MM: [f64; 3] = [60.0, 100.0, 60.0];
+
 /// A number that no knee has. In words it is a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Impossible {
@@ -105,6 +109,18 @@ pub fn impossible(numbers: &[f64; NUMBERS]) -> Option<Impossible> {
         .or_else(above)
 }
 
+/// The largest of a frame's translations by the field's convention, mm, where one is larger than components of a knee allow: the origins of
+/// the models' files lie far off the components. Rotations and lowest points are free of it.
+#[must_use]
+pub fn origins_apart(numbers: &[f64; NUMBERS]) -> Option<f64> {
+    let translations = || numbers.iter().zip(APART_MM);
+    let is_far = |(value, most): (&f64, f64)| value.is_finite() && value.abs() > most;
+    let far = translations().any(is_far);
+    let largest = numbers.iter().take(APART_MM.len()).copied();
+    let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+    far.then(|| largest.fold(0.0, larger))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,6 +134,18 @@ mod tests {
         numbers[place::MEDIAL_ACROSS + 2] = 9.0;
         numbers[place::LATERAL_ACROSS + 2] = 9.0;
         numbers
+    }
+
+    #[test]
+    fn origins_that_lie_off_the_components_are_told_and_make_no_number_impossible() {
+        let mut numbers = knee();
+        numbers[..3].copy_from_slice(&[-24.0, 74.0, -14.0]);
+        assert_eq!(origins_apart(&numbers), None);
+        numbers[0] = -86.3;
+        assert_eq!(origins_apart(&numbers), Some(-86.3));
+        numbers[1] = f64::NAN;
+        assert_eq!(origins_apart(&numbers), Some(-86.3));
+        assert_eq!(impossible(&numbers), None);
     }
 
     #[test]

@@ -7,6 +7,7 @@ import { framePoint } from '../geometry/points';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import { bytesOf, type Incoming, textOf } from './incoming';
+import { byName } from './name_order';
 import { lookedAt } from './reading';
 import type { Store } from '../document/store';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
@@ -39,7 +40,7 @@ export async function propose(services: Services, files: readonly OutlineFile[],
       failed(file, error);
     }
   }
-  const masks = files.filter(({ kind }) => kind === 'mask').sort((a, b) => byPath(pathOf(a), pathOf(b)));
+  const masks = files.filter(({ kind }) => kind === 'mask').sort((a, b) => byName(pathOf(a), pathOf(b)));
   items.push(...(await readMasks(services, masks, remarks)));
   if (items.length === 0) {
     for (const remark of remarks) store.say('error', remark);
@@ -165,10 +166,6 @@ function closed(numbers: Float64Array): Outline {
 
 function pathOf({ path, name }: Incoming): string {
   return (path ?? name).replace(/^\//, '');
-}
-
-function byPath(a: string, b: string): number {
-  return a.localeCompare(b, undefined, { numeric: true });
 }
 
 // --- Recognising --------------------------------------------------------------------------------------------------

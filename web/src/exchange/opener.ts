@@ -1,5 +1,6 @@
 import { decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
+import { byName } from './name_order';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
@@ -190,10 +191,6 @@ async function openAsFrames(services: Services, files: readonly Incoming[]): Pro
 const ORDER: readonly FileKind[] = [
   'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
 ];
-
-function byName(a: string, b: string): number {
-  return a.localeCompare(b, undefined, { numeric: true });
-}
 
 /** So much of it is kept: an image's size stands there, bytes. */
 const HEAD = 64;

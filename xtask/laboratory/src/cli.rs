@@ -110,6 +110,7 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Pose(args) => return verbs::pose::run(args),
         Verb::Track(args) => return verbs::track::run(args),
         Verb::Kinematics(args) => return verbs::kinematics::run(args),
+        Verb::Report(args) => return verbs::report::run(args),
         Verb::Library(args) => verbs::library::run(args),
         Verb::Biplane(args) => verbs::biplane::run(args),
         Verb::Synthetic(args) => verbs::synthetic::run(*args),
@@ -119,7 +120,6 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Bound(args) => verbs::bound::run(args),
         Verb::Calibrate(args) => verbs::calibrate::run(args),
         Verb::Undistort(args) => verbs::undistort::run(args),
-        Verb::Report(args) => verbs::report::run(args),
         Verb::Bench(args) => verbs::bench::run(args),
     }?;
     Ok(0)

@@ -4,9 +4,12 @@ mod calibration;
 mod distortion;
 mod film;
 mod frames;
+mod listing;
 mod mask;
 mod model;
 mod name;
+mod name_order;
+mod pose_rows;
 mod poses;
 mod role;
 mod study;
@@ -16,16 +19,18 @@ pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};
+pub use listing::{files_in, gaps_in};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{
     other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,
 };
 pub use name::check_file_name;
+pub use name_order::name_order;
+pub use pose_rows::{PoseRows, read_poses_of};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
 pub use study::{Component, StatedFilm, Study};
 pub use text::{
-    csv_fields, files_in, name_of, read, read_text, sha256, write_bytes, write_figure, write_json,
-    write_text,
+    csv_fields, name_of, read, read_text, sha256, write_bytes, write_figure, write_json, write_text,
 };

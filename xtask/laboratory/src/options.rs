@@ -1,9 +1,10 @@
 //! Numbers as the command line writes them.
 
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
 use fluoropose::library::ViewAxis;
 use fluoropose::refine::Polarity;
 use fluoropose_phantom::implant::Side;
@@ -95,6 +96,14 @@ impl FromStr for Pair {
             _ => bail!("'{text}' is not x,y"),
         }
     }
+}
+
+/// Reads the path of a study file, or of the folder that holds it as `study.toml`.
+pub fn study_files() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| match path.is_dir() {
+        true => path.join("study.toml"),
+        false => path,
+    })
 }
 
 /// Reads `left` or `right`.

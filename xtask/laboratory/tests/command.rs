@@ -231,7 +231,12 @@ fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
     let joint = |femur: &str, tibia: &str| folder.run(&joint(femur, tibia, "joint.csv"));
     let (code, said) = joint("above.jts", "below.jts");
     assert_eq!(code, 0, "{said}");
-    assert!(folder.read("joint.csv").starts_with("frame,rel_x_mm"));
+    let table = folder.read("joint.csv");
+    assert!(table.starts_with("# translations: origins are"), "{table}");
+    assert!(
+        table.contains("\nframe,rel_x_mm") && !table.contains("# origins"),
+        "{table}"
+    );
     let (code, said) = joint("below.jts", "above.jts");
     assert_eq!(code, 3, "{said}");
     let table = folder.read("joint.csv");
@@ -240,6 +245,34 @@ fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
         "{table}"
     );
     assert!(table.contains("\nframe,rel_x_mm"), "{table}");
+}
+
+#[test]
+fn translations_of_far_origins_are_marked_and_are_no_doubt() {
+    let folder = Folder::new("origins");
+    knee(&folder, 2);
+    // As poses of a tibial file whose origin lies 86 mm in front of the tray.
+    folder.write(
+        "far.jts",
+        "JT_EULER_312\n86,-30,-1000,0,0,0\nNaN,NaN,NaN,NaN,NaN,NaN\n",
+    );
+    let words = [
+        "kinematics",
+        "--femur",
+        "above.jts",
+        "--tibia",
+        "far.jts",
+        "--side",
+        "right",
+    ];
+    let (code, said) = folder.run(&[&words[..], &["--out", "joint.csv"]].concat());
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("frame 1: a translation would be"), "{said}");
+    let table = folder.read("joint.csv");
+    assert!(
+        table.starts_with("# origins: frame 1: a translation would be 86 mm"),
+        "{table}"
+    );
 }
 
 #[test]

@@ -29,7 +29,7 @@ def read_frames(path: _checks.PathLike) -> NDArray[Any]:
 
 def files_of(folder: Path) -> list[Path]:
     """The files of a folder in the order of the frames."""
-    return sorted(file for file in folder.iterdir() if file.is_file() and not file.name.startswith("."))
+    return [Path(file) for file in _native.files_in(str(folder))]
 
 
 def size_in(folder: Path) -> tuple[int, int] | None:

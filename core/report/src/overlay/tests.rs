@@ -130,3 +130,22 @@ fn words_that_are_too_long_are_cut() {
     assert!(Font::of(false).unwrap().width(&short) <= 10.0);
     assert_eq!(cut("knee", 0.1), "");
 }
+
+#[test]
+fn reasons_stand_whole_on_several_lines() {
+    let reason = "doubtful: femur doubtful: jump: it lies 1.9 degrees and 1.0 mm off the way between the frames beside it; \
+        tibia doubtful: mirror: the other side fits as well";
+    // The width beside a frame, in the words' size.
+    let wide = (BESIDE - 0.06) * 100.0 / NOTE;
+    let lines = broken(reason, wide);
+    assert!((2..=NOTES).contains(&lines.len()), "{lines:?}");
+    assert_eq!(lines.join(" "), reason);
+    let font = Font::of(false).unwrap();
+    assert!(
+        lines.iter().all(|line| font.width(line) <= wide),
+        "{lines:?}"
+    );
+    assert_eq!(most(lines.clone(), NOTES), lines);
+    assert_eq!(most(broken("a b c", 0.1), 2), ["a", "b\u{2026}"]);
+    assert!(broken(" ", 1.0).is_empty());
+}

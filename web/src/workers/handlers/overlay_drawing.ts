@@ -18,6 +18,9 @@ const ROWS = { least: 480, most: 1080 } as const;
 /** Width of what stands beside the frame, and its heading's height, as parts of the picture's height. */
 const BESIDE = 0.56;
 const HEADING = 0.16;
+/** Size of the lines that say why a frame is doubtful, percent of the picture's height, and how many there may be. */
+const NOTE = 1.6;
+const NOTES = 4;
 
 /** Draws the pictures of one film: what all have in common is drawn once. */
 export class OverlayDrawing {
@@ -88,7 +91,11 @@ export class OverlayDrawing {
     words(this.#context, this.#look.name, left, 3.4 * unit, { size: 2 * unit, colour: INK.quiet, width });
     words(this.#context, heading, left, 7.2 * unit, { size: 3.2 * unit, colour: INK.text, width: time ? 0.7 * width : width });
     if (time) words(this.#context, time, left + width, 7.2 * unit, { size: 2.4 * unit, colour: INK.text, width: 0.28 * width, align: 'right' });
-    notes.slice(0, 2).forEach((note, at) => words(this.#context, note, left, (10.4 + 2.6 * at) * unit, { size: 1.9 * unit, colour: INK.quiet, width }));
+    const size = NOTE * unit;
+    this.#context.font = `${size}px ${FONT}`;
+    const lines = notes.flatMap((note) => broken(note, (text) => this.#context.measureText(text).width <= width));
+    const shown = lines.length > NOTES ? [...lines.slice(0, NOTES - 1), `${lines[NOTES - 1]}\u2026`] : lines;
+    shown.forEach((line, at) => words(this.#context, line, left, (10 + 1.8 * at) * unit, { size, colour: INK.quiet, width }));
   }
 }
 
@@ -233,6 +240,17 @@ interface Style {
   readonly colour: string;
   readonly width: number;
   readonly align?: 'left' | 'right';
+}
+
+/** A text as lines that fit, broken between words. */
+function broken(text: string, fits: (line: string) => boolean): readonly string[] {
+  const lines: string[] = [];
+  for (const word of text.split(/\s+/).filter(Boolean)) {
+    const line = `${lines.at(-1) ?? ''} ${word}`.trimStart();
+    if (lines.length > 0 && fits(line)) lines[lines.length - 1] = line;
+    else lines.push(word);
+  }
+  return lines;
 }
 
 /** Words that are too long for their place are cut. */

@@ -9,15 +9,18 @@ use fluoropose_decode::{FrameFile, GreyFrame};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::text::{files_in, name_of, read};
+use super::listing::{files_in, gaps_in};
+use super::text::{name_of, read};
 
 /// Decoded frames that are kept: both components look at the same frames at about the same time, from two ends.
 const KEPT: usize = 8;
+/// Files that cannot be read of which it is said why.
+const NAMED: usize = 5;
 
 /// A frame as it is decoded once for all who look at it.
 type Slot = Arc<OnceLock<Result<Arc<GreyFrame>, String>>>;
 
-/// The frames of a folder in the order of their files' names. A file may hold several, as DICOM and TIFF do: the last of
+/// The frames of a folder in the order of their files' names ([`files_in`]). A file may hold several, as DICOM and TIFF do: the last of
 /// such files is kept in memory, and nothing else but a few decoded frames.
 pub struct Film {
     paths: Vec<PathBuf>,
@@ -37,16 +40,14 @@ struct Listed {
 }
 
 impl Film {
-    /// Lists the frames of a folder. Every file is read once, for its digest and its number of frames.
+    /// Lists the frames of a folder. Every file is read once, for its digest and its number of frames, and every frame is decoded once: what is
+    /// damaged is told before hours of work, and all of it.
     ///
     /// # Errors
-    /// For a folder or a file that cannot be read, and frames of several sizes.
+    /// For a folder or a file that cannot be read, a damaged frame, and frames of several sizes.
     pub fn read(folder: &Path) -> Result<Self> {
         let paths = files_in(folder)?;
-        let listed: Vec<Listed> = paths
-            .par_iter()
-            .map(|path| list(path))
-            .collect::<Result<_>>()?;
+        let listed = all_readable(folder, paths.par_iter().map(|path| list(path)).collect())?;
         let mut whole = Sha256::new();
         let mut places = Vec::new();
         for (file, listed) in listed.iter().enumerate() {
@@ -94,6 +95,12 @@ impl Film {
             named(other + 1),
             named(0)
         )
+    }
+
+    /// What the files' numbers tell to be missing, a sentence without its full stop.
+    pub fn gaps(&self) -> Option<String> {
+        let folder = self.paths.first()?.parent().unwrap_or(Path::new(""));
+        gaps_in(&self.paths).map(|gaps| format!("{}: {gaps}", folder.display()))
     }
 
     /// Number of frames.
@@ -183,11 +190,45 @@ fn list(path: &Path) -> Result<Listed> {
     let bytes = read(path)?;
     let digest = Sha256::digest(&bytes).into();
     let file = FrameFile::open(bytes, &name_of(path))?;
-    let sizes = (0..file.count()).filter_map(|frame| file.size(frame));
+    let size = |frame: usize| -> Result<(u32, u32)> {
+        // Headers alone do not tell a file that was cut off.
+        let decoded = file.frame(frame)?;
+        Ok((decoded.width, decoded.height))
+    };
     Ok(Listed {
-        sizes: sizes.collect(),
+        sizes: (0..file.count()).map(size).collect::<Result<_>>()?,
         digest,
     })
+}
+
+/// All of what was listed, or what is wrong with the first few of those that cannot be read, and how many they are.
+fn all_readable(folder: &Path, listed: Vec<Result<Listed>>) -> Result<Vec<Listed>> {
+    let count = listed.len();
+    let (mut readable, mut faults) = (Vec::with_capacity(count), Vec::new());
+    for one in listed {
+        match one {
+            Ok(listed) => readable.push(listed),
+            // Of the machine, perhaps, which who asked tells from a fault of the file.
+            Err(error) if error.chain().any(|cause| cause.is::<std::io::Error>()) => {
+                return Err(error.context(folder.display().to_string()));
+            }
+            Err(error) => faults.push(format!("{error:#}")),
+        }
+    }
+    if faults.is_empty() {
+        return Ok(readable);
+    }
+    let all = faults.len();
+    faults.truncate(NAMED);
+    let more = match all - faults.len() {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    bail!(
+        "{}: {all} of {count} files cannot be read: {}{more}",
+        folder.display(),
+        faults.join("; ")
+    )
 }
 
 #[cfg(test)]
@@ -215,6 +256,42 @@ mod tests {
         assert!(
             refused.contains("4.png is 15 x 8 pixels but 1.png is 16 x 8 pixels"),
             "{refused}"
+        );
+    }
+
+    #[test]
+    fn damaged_frames_are_told_at_the_start_with_their_folder_and_all_of_them() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-cut-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let pixels: Vec<u8> = (0..64 * 64).map(|k| (k * k % 251) as u8).collect();
+        for number in 1..=12 {
+            let path = folder.join(format!("f{number}.png"));
+            write_grey(&path, (64, 64), &pixels).unwrap();
+            if number % 5 == 0 {
+                let whole = std::fs::read(&path).unwrap();
+                std::fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+            }
+        }
+        let refused = Film::read(&folder).err().unwrap().to_string();
+        std::fs::remove_file(folder.join("f5.png")).unwrap();
+        std::fs::remove_file(folder.join("f10.png")).unwrap();
+        let film = Film::read(&folder).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        let begin = format!(
+            "{}: 2 of 12 files cannot be read: f5.png: ",
+            folder.display()
+        );
+        assert!(
+            refused.starts_with(&begin) && refused.contains("; f10.png: "),
+            "{refused}"
+        );
+        assert_eq!(film.place(8).0, "f11.png");
+        let gaps = film.gaps().unwrap();
+        assert!(
+            gaps.contains(
+                "2 of the numbered files are missing, between f4.png and f6.png, f9.png and f11.png"
+            ),
+            "{gaps}"
         );
     }
 }

@@ -10,7 +10,8 @@ use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::image::shuttered::Shuttered;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
 
-use super::text::{files_in, name_of, read};
+use super::listing::files_in;
+use super::text::{name_of, read};
 
 /// The frames of a sequence in the order of their files' names. A file may hold several, as
 /// DICOM and TIFF do. They are decoded one by one when they are looked at: a film in full size
@@ -39,7 +40,8 @@ impl Frames {
         let open = |path: &PathBuf| -> Result<FrameFile<'static>> {
             Ok(FrameFile::open(read(path)?, &name_of(path))?)
         };
-        let files: Vec<_> = paths.iter().map(open).collect::<Result<_>>()?;
+        let files = paths.iter().map(open).collect::<Result<Vec<_>>>();
+        let files = files.with_context(|| folder.display().to_string())?;
         let places: Vec<(usize, usize)> = files
             .iter()
             .enumerate()
@@ -55,7 +57,8 @@ impl Frames {
         let frames = Self(From::Files { files, places });
         let mut notes = BTreeSet::new();
         for place in 0..count {
-            let decoded = frames.decode(place)?;
+            let decoded = frames.decode(place);
+            let decoded = decoded.with_context(|| folder.display().to_string())?;
             let found = (decoded.width as usize, decoded.height as usize);
             if found != size {
                 bail!(

@@ -9,7 +9,7 @@ use fluoropose_decode::decode_model;
 use fluoropose_phantom::implant::Triangles;
 
 use super::role::Role;
-use super::text::{name_of, read};
+use super::text::read;
 
 /// A built-in implant as the core takes it.
 ///
@@ -36,7 +36,7 @@ pub fn read_model(path: &Path) -> Result<OwnedModel> {
 /// # Errors
 /// Those of [`read_model`].
 pub fn read_model_and_remarks(path: &Path) -> Result<(OwnedModel, Vec<String>)> {
-    let model = decode_model(&read(path)?, &name_of(path))?;
+    let model = decode_model(&read(path)?, &path.display().to_string())?;
     let (vertices, triangles) = (model.vertices, model.triangles);
     let owned = OwnedModel::new(vertices.into_flattened(), triangles.into_flattened())?;
     let mut remarks = model.notes;

@@ -18,6 +18,9 @@ use keys::Checked;
 use super::role::Role;
 use super::text::read_text;
 
+/// So many letters in which a name differs may be slips.
+const NEARLY: usize = 2;
+
 /// A sequence of frames with one or more components.
 #[derive(Debug, Deserialize)]
 pub struct Study {
@@ -145,12 +148,23 @@ impl Study {
     /// # Errors
     /// Names the file, the line, the key at fault and what was expected.
     pub fn read(path: &Path) -> Result<Self> {
-        let (study, remarks) =
-            Self::of(&read_text(path)?, path).with_context(|| format!("in {}", path.display()))?;
+        let (study, remarks) = Self::with_remarks(path)?;
         for remark in remarks {
             eprintln!("in {}: {remark}", path.display());
         }
         Ok(study)
+    }
+
+    /// The same where what there is to say of its keys is said elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`Study::read`].
+    pub fn read_quietly(path: &Path) -> Result<Self> {
+        Ok(Self::with_remarks(path)?.0)
+    }
+
+    fn with_remarks(path: &Path) -> Result<(Self, Vec<String>)> {
+        Self::of(&read_text(path)?, path).with_context(|| format!("in {}", path.display()))
     }
 
     fn of(text: &str, path: &Path) -> Result<(Self, Vec<String>)> {
@@ -160,8 +174,10 @@ impl Study {
         study.file = path.to_owned();
         study.film.map_or(Ok(()), |film| film.check())?;
         study.check_names()?;
+        let mut remarks = checked.remarks;
+        remarks.extend(study.without_role());
         study.resolve(path.parent().unwrap_or(Path::new("")))?;
-        Ok((study, checked.remarks))
+        Ok((study, remarks))
     }
 
     /// The folder of the frames.
@@ -218,6 +234,24 @@ impl Study {
     fn line(&self, key: &str) -> String {
         let line = self.lines.get(key);
         line.map_or(String::new(), |line| format!("line {line}: "))
+    }
+
+    /// Components that are perhaps meant for one of a knee, but are called otherwise: a sentence each, without its full stop.
+    fn without_role(&self) -> Vec<String> {
+        let others = self.components.iter().enumerate();
+        let others = others.filter(|(_, one)| one.role().is_none());
+        let remark = |(number, one): (usize, &Component)| {
+            let name = one.name.to_lowercase();
+            let meant = ["femur", "tibia"].into_iter().find(|role| {
+                name.starts_with(&role[..3]) || keys::distance(&name, role) <= NEARLY
+            })?;
+            let line = self.line(&format!("component.{number}"));
+            Some(format!(
+                "{line}the component {:?} is neither femur nor tibia by its name, and in no joint: if it is meant, state role = {meant:?}",
+                one.name
+            ))
+        };
+        others.filter_map(remark).collect()
     }
 
     /// Names become names of files, and tell components apart.

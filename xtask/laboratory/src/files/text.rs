@@ -1,8 +1,8 @@
 //! Files and folders as they are: bytes, text, JSON, names.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use fluoropose_phantom::whole;
@@ -58,24 +58,6 @@ pub fn name_of(path: &Path) -> String {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned()
-}
-
-/// The files of a folder in name order: the order of the frames.
-///
-/// # Errors
-/// When the folder cannot be listed or holds no file.
-pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
-    let entries =
-        fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| Ok(entry?.path()))
-        .collect::<Result<_>>()?;
-    files.retain(|path| path.is_file() && !name_of(path).starts_with('.'));
-    files.sort();
-    if files.is_empty() {
-        bail!("{} holds no files", folder.display());
-    }
-    Ok(files)
 }
 
 /// Writes a text file.
@@ -140,6 +122,8 @@ pub fn sha256(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

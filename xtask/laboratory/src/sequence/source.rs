@@ -9,7 +9,7 @@ use fluoropose_decode::GreyFrame;
 use rayon::prelude::*;
 
 use super::seen::Seen;
-use crate::files::{Frames, MaskBuffer, camera_of_frames, files_in, grey, read_mask};
+use crate::files::{Frames, MaskBuffer, camera_of_frames, files_in, gaps_in, grey, read_mask};
 use crate::noise::{DisturbanceOptions, Disturbed};
 
 /// Masks, and what belongs to them, that are in memory; as many of each.
@@ -63,7 +63,11 @@ impl Source {
     /// For a folder or a file that cannot be read, masks and frames that differ in size or
     /// number, and a calibration for another size.
     pub fn read(folders: &Folders<'_>, calibration: &Calibration) -> Result<Self> {
-        let masks: Vec<_> = files_in(folders.masks)?
+        let files = files_in(folders.masks)?;
+        if let Some(gaps) = gaps_in(&files) {
+            eprintln!("{}: {gaps}", folders.masks.display());
+        }
+        let masks: Vec<_> = files
             .into_par_iter()
             .map(|path| read_whole(&path).map(|mask| (path, mask)))
             .collect::<Result<_>>()?;

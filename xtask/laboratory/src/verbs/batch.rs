@@ -39,7 +39,8 @@ pub enum Only {
 #[derive(clap::Args)]
 #[command(
     after_help = "The list is a table (CSV) with a row a study: study (a study.toml or its folder, from the list's own folder), and where wanted \
-name (of its results; else its folder's), knee and group (for `collect`), click and fixed (as of `track`, several with ; between them).\n\n\
+name (of its results; else its folder's), knee and group (for `collect`), click and fixed (as of `track`, several with ; between them, and what has a \
+comma in quotes):\n\n  study,knee,click\n  left/study.toml,p1,\"femur:1:512,400;tibia:1:500,640\"\n  right/study.toml,p2,\n\n\
 Each study is tracked and reported as `track` and `report` do it, into DIR/NAME, with joint.csv and manifest.json: digests of all inputs and \
 results, version and settings. Results are written aside and renamed, so what has a manifest is whole. What is done is not done again, unless \
 inputs, version or settings have changed; a study that was broken off goes on where it was.\n\n\

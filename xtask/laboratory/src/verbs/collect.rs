@@ -10,7 +10,7 @@ use fluoropose_report::levels::FilmLevels;
 use fluoropose_report::{Group, Knee, counted, read};
 
 use crate::exit;
-use crate::files::{csv_fields, read_text, write_figure, write_text};
+use crate::files::{PoseRows, Study, csv_fields, read_text, write_figure, write_text};
 use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 
 /// Options of `collect`.
@@ -64,6 +64,9 @@ pub fn run(args: Args) -> Result<u8> {
     if !args.mixed {
         alike(&done)?;
     }
+    for one in &done {
+        check_order(one.entry, &args.results)?;
+    }
     let groups = groups(&done, &args.results)?;
     let doubtful = doubtful(&done, &args.results)?;
     std::fs::create_dir_all(&args.out)
@@ -91,6 +94,24 @@ pub fn run(args: Args) -> Result<u8> {
         println!("{name}: {}", why.as_deref().unwrap_or("not done"));
     }
     Ok(exit::NOT_DONE)
+}
+
+/// Refuses results whose rows are not of the frames as they stand now, as far as these are at hand: films that were followed in another order
+/// were followed wrongly.
+fn check_order(entry: &Entry, results: &Path) -> Result<()> {
+    let Ok(study) = Study::read_quietly(&entry.study) else {
+        return Ok(());
+    };
+    let folder = results.join(&entry.name);
+    let other = PoseRows::of(&folder, study.frames.as_deref());
+    let other = other.with_context(|| format!("the study {}", entry.name))?;
+    ensure!(
+        other.is_none(),
+        "the study {}: its frames stood in another order when {} was written: do it again with batch",
+        entry.name,
+        folder.display()
+    );
+    Ok(())
 }
 
 /// Refuses what was not made by one program in one way.
@@ -170,4 +191,43 @@ fn doubtful(done: &[Done<'_>], results: &Path) -> Result<String> {
         }
     }
     Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_of_another_order_of_frames_are_refused() {
+        let place = std::env::temp_dir().join(format!("fluoropose-others-{}", std::process::id()));
+        let write = |name: &str, text: &str| {
+            let path = place.join(name);
+            std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+            std::fs::write(path, text).expect("a file");
+        };
+        write(
+            "k/study.toml",
+            "name = 'k'\ncalibration = 'c.txt'\nframes = 'frames'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n",
+        );
+        for name in ["f1.png", "f2.png", "f10.png"] {
+            write(&format!("k/frames/{name}"), "");
+        }
+        write("list.csv", "study\nk\n");
+        let entry = &read_list(&place.join("list.csv")).expect("a list")[0];
+        let results = place.join("results");
+        let check = |files: [&str; 3]| {
+            let row = |(row, name): (i32, &str)| format!("{row},femur,followed,good,,{name}\n");
+            let rows: String = (1..).zip(files).map(row).collect();
+            let table = format!("frame,component,state,verdict,because,file\n{rows}");
+            write("results/k/track.csv", &table);
+            check_order(entry, &results)
+        };
+        check(["f1.png", "f2.png", "f10.png"]).expect("the same order");
+        let told = check(["f1.png", "f10.png", "f2.png"]).expect_err("by letters");
+        std::fs::remove_dir_all(&place).expect("it was there");
+        assert!(
+            told.to_string().contains("do it again with batch"),
+            "{told}"
+        );
+    }
 }

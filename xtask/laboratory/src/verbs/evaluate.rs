@@ -12,10 +12,11 @@ use std::path::{Path, PathBuf};
 
 use crate::choice::report::{report, write_report};
 use crate::choice::{Reasons, report};
-use crate::files::{Study, read_calibration, read_poses, write_json, write_poses};
+use crate::files::{Component, Study, read_calibration, read_poses_of, write_json, write_poses};
 use crate::finding::{EdgeOptions, Method};
 use crate::noise::{DisturbanceOptions, Noise};
-use anyhow::{Result, bail};
+use crate::options::study_files;
+use anyhow::{Context, Result, bail};
 use found::{Found, Part, find_parts};
 pub use inside::Inside;
 pub use request::Request;
@@ -40,8 +41,8 @@ part of the outline that is not hidden. Tables unknown.SOURCE = \"folder\" of a 
 Example:\n  cargo xtask evaluate --study study.toml --json table.json --poses found", report::HELP)
 )]
 pub struct Args {
-    /// Study file
-    #[arg(long)]
+    /// Study file, or its folder
+    #[arg(long, value_parser = study_files())]
     study: PathBuf,
     /// Only masks of this source [default: all]
     #[arg(long, value_name = "NAME")]
@@ -57,7 +58,7 @@ pub struct Args {
     /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Folder for the poses found: COMPONENT-SOURCE.jts each, with the uncertainty table
+    /// Folder for the poses found, made if absent: COMPONENT-SOURCE.jts each, with the uncertainty table
     /// COMPONENT-SOURCE.csv beside it [default: written only for components without a reference,
     /// to the current folder]
     #[arg(long, value_name = "DIR")]
@@ -80,7 +81,13 @@ pub fn run(args: Args) -> Result<()> {
         poses: args.poses.as_deref(),
     };
     let table = evaluate(&args.study, &request)?;
-    print::print(&table);
+    match table.rows.is_empty() {
+        true => println!(
+            "{}: no component has a reference; its poses are written and compared with nothing",
+            table.study
+        ),
+        false => print::print(&table),
+    }
     write_json(args.json.as_deref(), &table)
 }
 
@@ -102,6 +109,18 @@ pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
     {
         bail!("{} names no masks of a source '{source}'", path.display());
     }
+    if !study.components.iter().any(is_evaluated) {
+        bail!(
+            "{} names nothing to evaluate: a component has masks, as in masks.hand = \"masks/femur\", or a reference and the poses of another \
+             method, as in reference = \"femur.jts\" and peer.other = \"other.jts\"",
+            path.display()
+        );
+    }
+    // Before hours of work.
+    if let Some(folder) = request.poses {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
     let calibration = read_calibration(&study.calibration)?;
     let mut rows = Vec::new();
     for part in find_parts(&study, &calibration, request)? {
@@ -109,12 +128,18 @@ pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
             part.write(found, request.poses)?;
             rows.extend(part.row(found, request)?);
         }
-        rows.extend(part.peers()?);
+        rows.extend(part.peers(study.frames.as_deref())?);
     }
     Ok(Table {
         study: study.name,
         rows,
     })
+}
+
+/// Whether a component has poses to be found or to be compared.
+fn is_evaluated(component: &Component) -> bool {
+    let is_compared = component.reference.is_some() && !component.peer.is_empty();
+    is_compared || !component.masks.is_empty()
 }
 
 impl Part<'_> {
@@ -153,12 +178,13 @@ impl Part<'_> {
     }
 
     /// The rows of other methods' pose files.
-    fn peers(&self) -> Result<Vec<Row>> {
+    fn peers(&self, frames: Option<&Path>) -> Result<Vec<Row>> {
         let Some(reference) = &self.reference else {
             return Ok(Vec::new());
         };
         let peers = self.component.peer.iter().map(|(source, path)| {
-            reference.row([&self.component.name, source, "peer"], &read_poses(path)?)
+            let poses = read_poses_of(path, frames)?;
+            reference.row([&self.component.name, source, "peer"], &poses)
         });
         peers.collect()
     }

@@ -11,7 +11,7 @@ use fluoropose::joint::{COLUMNS, Joint};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose_report::impossibilities;
+use fluoropose_report::{ORIGINS, impossibilities, origins_told};
 
 use crate::exit;
 use crate::files::{Role, read_model_of, read_poses, write_text};
@@ -24,7 +24,8 @@ use fluoropose_phantom::implant::Side;
 #[command(
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
 numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees); the \
-translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. A frame in which \
+translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. Translations are those \
+of the origins of both files, wherever these lie: a line that begins with # says so above the table's heading, and another where they are such as no knee has. A frame in which \
 either has no pose has empty numbers. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
 code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
 patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
@@ -83,11 +84,11 @@ pub fn run(args: Args) -> Result<u8> {
     let femur_part = part(&args.femur_model, &args.femur_axes, Role::Femur)?;
     let tibia_part = part(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
     let parts = [&femur_part, &tibia_part];
-    let (table, told) = table(parts, side, femur.into_iter().zip(tibia))?;
-    let marked: String = told
-        .iter()
-        .map(|told| format!("# doubtful: {told}\n"))
-        .collect();
+    let Told { table, told, far } = table(parts, side, femur.into_iter().zip(tibia))?;
+    let marked = told.iter().map(|told| format!("# doubtful: {told}\n"));
+    let origins = [format!("# translations: {ORIGINS}\n")];
+    let far_apart = far.iter().map(|far| format!("# origins: {far}\n"));
+    let marked: String = marked.chain(far_apart).chain(origins).collect();
     write_text(&args.out, &(marked + &table))?;
     // Written before anything is said, so that it is there where nobody reads on.
     for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
@@ -95,16 +96,25 @@ pub fn run(args: Args) -> Result<u8> {
             say(name, axes);
         }
     }
-    told.iter().for_each(|told| eprintln!("{told}"));
+    println!("translations: {ORIGINS}");
+    told.iter().chain(&far).for_each(|told| eprintln!("{told}"));
     Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
 }
 
-/// The table, and what is told of numbers that no knee has.
+/// The table, and what is told of it.
+struct Told {
+    table: String,
+    /// Of numbers that no knee has.
+    told: Vec<String>,
+    /// Of translations that no knee has by the origins of the files.
+    far: Option<String>,
+}
+
 fn table(
     [femur_part, tibia_part]: [&Part; 2],
     side: kinematics::Side,
     poses: impl Iterator<Item = (Option<Pose>, Option<Pose>)>,
-) -> Result<(String, Vec<String>)> {
+) -> Result<Told> {
     let joint = joint(femur_part, tibia_part, side);
     let mut memory = vec![0; joint.map_or(0, |joint| joint.memory_needed())];
     let columns = if joint.is_some() {
@@ -138,7 +148,11 @@ fn table(
         }
         table.push('\n');
     }
-    Ok((table, impossibilities(frames.into_iter())))
+    Ok(Told {
+        table,
+        told: impossibilities(frames.iter().copied()),
+        far: origins_told(frames.into_iter()),
+    })
 }
 
 /// A component: its model and its anatomical axes, where they are known.
@@ -270,8 +284,10 @@ mod tests {
         .unwrap();
         let table = std::fs::read_to_string(out).unwrap();
         std::fs::remove_dir_all(folder).unwrap();
+        assert!(table.starts_with("# translations: origins are those of the models' files"));
         let rows: Vec<Vec<&str>> = table
             .lines()
+            .filter(|line| !line.starts_with('#'))
             .skip(1)
             .map(|row| row.split(',').collect())
             .collect();

@@ -24,7 +24,7 @@ use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
 
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 
-use crate::options::{Pair, Shown};
+use crate::options::{Pair, Shown, study_files};
 
 use crate::sequence::{Folders, Source};
 use known::Known;
@@ -40,8 +40,8 @@ depth off), how many of the others are told to be doubtful or refused, and how m
 Example:\n  cargo xtask outline --study study.toml --component femur"
 )]
 pub struct Args {
-    /// Study file; it needs the key frames
-    #[arg(long)]
+    /// Study file, or its folder; it needs the key frames
+    #[arg(long, value_parser = study_files())]
     study: PathBuf,
     /// Name of the component
     #[arg(long)]

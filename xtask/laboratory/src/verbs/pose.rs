@@ -15,8 +15,8 @@ use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report
 use crate::choice::{Beside, Decision, Posed, Posing, Reasons};
 
 use crate::files::{
-    Role, name_of, read, read_calibration, read_model_of, read_poses, shape_doubt, size_taken,
-    write_poses,
+    Role, name_of, read, read_calibration, read_model_and_remarks_of, read_model_of, read_poses,
+    shape_doubt, size_taken, write_poses,
 };
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
@@ -96,7 +96,7 @@ pub fn run(args: Args) -> Result<u8> {
         bail!("--method image needs the grey frames: name their folder with --frames");
     }
     let bytes = read(&args.library)?;
-    let model = read_model_of(&args.model, args.role)?;
+    let (model, remarks) = model_and_remarks(&args)?;
     let mesh = model.as_model();
     let calibration = read_calibration(&args.calibration)?;
     let folders = Folders {
@@ -121,6 +121,7 @@ pub fn run(args: Args) -> Result<u8> {
     let (rows, poses) = (posed.report(), posed.poses());
     let missing = poses.iter().filter(|pose| pose.is_none()).count();
     let is_found = missing < poses.len();
+    let is_good = rows.iter().any(|row| row.verdict == "good");
     // Written before anything is said, so that they are there where nobody reads on.
     if is_found {
         if let Some(path) = &args.report {
@@ -134,6 +135,10 @@ pub fn run(args: Args) -> Result<u8> {
         println!("{words}");
     }
     say(&posed, &rows, &mesh.bounds().centre);
+    // Told when the run began, which many lines may stand below by now.
+    remarks
+        .iter()
+        .for_each(|remark| println!("remark: {remark}"));
     if !is_found {
         eprintln!("no mask has a pose; nothing was written");
         return Ok(exit::NOTHING_FOUND);
@@ -141,7 +146,16 @@ pub fn run(args: Args) -> Result<u8> {
     if missing > 0 {
         eprintln!("{missing} of {} masks have no pose", rows.len());
     }
-    Ok(0)
+    Ok(if is_good { 0 } else { exit::DOUBTFUL })
+}
+
+/// The model, and what there is to say of it, which is said.
+fn model_and_remarks(args: &Args) -> Result<(OwnedModel, Vec<String>)> {
+    let (model, remarks) = read_model_and_remarks_of(&args.model, args.role)?;
+    let named = |remark: &String| format!("{}: {remark}", args.model.display());
+    let remarks: Vec<String> = remarks.iter().map(named).collect();
+    remarks.iter().for_each(|remark| eprintln!("{remark}"));
+    Ok((model, remarks))
 }
 
 /// Prints what was found.
@@ -216,11 +230,20 @@ fn describe(frame: &FrameFound, decision: Option<&Decision>, row: &FrameReport, 
     println!("  {}: {}", row.verdict, row.because);
 }
 
+/// A standard deviation that is never rounded away: two places, or as many as show its first two digits.
+fn deviation(sd: f64) -> String {
+    let places = match sd > 0.0 && sd < 0.1 {
+        true => (1.0 - sd.log10().floor()).min(9.0) as usize,
+        false => 2,
+    };
+    format!("{sd:.places$}")
+}
+
 fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
     let values = Numbers::from(candidate.pose).all();
     let deviations = Numbers::deviations(candidate, middle).map(|sd| sd.all());
     let number = |k: usize| match deviations {
-        Some(sd) => format!("{:8.2} ±{:.2}", values[k], sd[k]),
+        Some(sd) => format!("{:8.2} ±{}", values[k], deviation(sd[k])),
         None => format!("{:8.2}", values[k]),
     };
     let fit = match candidate.refined {
@@ -246,4 +269,23 @@ fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
         number(4),
         number(5),
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::deviation;
+
+    #[test]
+    fn a_small_deviation_is_not_rounded_away() {
+        for (sd, words) in [
+            (1.234, "1.23"),
+            (0.1, "0.10"),
+            (0.0436, "0.044"),
+            (0.000_371, "0.00037"),
+            (0.0, "0.00"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(deviation(sd), words);
+        }
+    }
 }

@@ -11,9 +11,11 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use fluoropose::Side;
 use fluoropose_phantom::implant;
-use fluoropose_report::{Facts, JointFilm, figure, html, write};
+use fluoropose_report::{Facts, JointFilm, ORIGINS, figure, html, write};
 
+use crate::exit;
 use crate::files::{Study, stated_frames_per_s, write_figure, write_text};
+use crate::options::study_files;
 use knee::{Filtering, Knee};
 use out::{make_folder, write_cycles};
 use sources::Sources;
@@ -34,8 +36,8 @@ cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cu
 cargo xtask report --group p1=a/joint.csv p1=b/joint.csv p2=c/joint.csv --out group"
 )]
 pub struct Args {
-    /// Study file with the models of a femoral and of a tibial component, and the side
-    #[arg(long, required_unless_present = "group")]
+    /// Study file, or its folder, with the models of a femoral and of a tibial component, and the side
+    #[arg(long, required_unless_present = "group", value_parser = study_files())]
     pub study: Option<PathBuf>,
     /// Instead of a study: knees that are published together, each table joint.csv with the name of its knee; a knee may have several
     #[arg(long, value_name = "KNEE=FILE", num_args = 1.., conflicts_with_all = ["study", "poses", "fps", "cutoff"])]
@@ -57,17 +59,20 @@ pub struct Args {
     pub overlay: bool,
 }
 
-/// Runs the verb.
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let Some(study) = &args.study else {
-        return group::run(&args.group, &args.out);
+        return group::run(&args.group, &args.out).map(|()| 0);
     };
     let film = report(study, &args)?;
     print(&args.out, &film);
-    Ok(())
+    Ok(match film.impossibilities().is_empty() {
+        true => 0,
+        false => exit::DOUBTFUL,
+    })
 }
 
 /// Writes the files of a study; what they are made from comes back.
@@ -157,9 +162,10 @@ fn print(out: &Path, film: &JointFilm) {
         film.rows.len(),
         film.doubtful()
     );
-    for told in film.impossibilities() {
+    for told in film.impossibilities().iter().chain(&film.origins_told()) {
         println!("{told}");
     }
+    println!("translations: {ORIGINS}");
     if !film.has_deviations() {
         println!("no standard deviations: the poses come without covariances");
     }

@@ -16,13 +16,14 @@ mod sides;
 mod table;
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::Result;
 
 use crate::choice::report::NEAR_THE_POLE;
 use crate::exit;
-use crate::options::Shown;
+use crate::files::Study;
+use crate::options::{Shown, study_files};
 use crate::progress::Stop;
 use crate::signals::say_when_ended;
 use crate::verbs::report::impossible;
@@ -36,20 +37,27 @@ pub use table::Row;
 #[command(
     after_help = format!("Poses that are known in some frames are followed to both ends of the film on its grey frames: those of --fixed, which \
 never change, and those that a click leads to. A component without either is looked for in whole frames.\n\n\
-Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv (frame, component, state, verdict, reason, the six \
-numbers and one standard deviation of each, and last the name of the frame's file and the frame's number in it), COMPONENT.covariances.csv, film.csv (the constants of the \
+Frames stand in the order of their files' names, numbers by their value: f2 before f10. Files that are damaged are told before anything is looked for.\n\n\
+Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv, COMPONENT.covariances.csv, film.csv (the constants of the \
 film), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
 and after other clicks or fixed poses only what lies between them is done again.\n\n\
+track.csv: frame, component, state, verdict (good, doubtful or none), because (the reason of both), the six numbers and one standard deviation of each (sd_*), misfit_px (what remains between the model's outline and the edges \
+of the frame, pixels), badness (how much speaks against the pose: above 1 it is doubtful), file (the name of the frame's file) and frame_of_file (the frame's \
+number in it, from 1).\n\n\
+COMPONENT.covariances.csv: frame, and c11 to c66, row by row, the covariance of a turn about the middle of the model's box (a rotation vector, radians: numbers 1 to 3) and a \
+shift of that middle (mm: 4 to 6), both along the camera's axes; film1_1 to film2_6: how turn and shift answer to one standard deviation of each of two constants of the film, which \
+is in the covariance already and moves both components together.\n\n\
 States: fixed (a person gave the pose), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
-(looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame. A run that is stopped (Ctrl-C, a task's end) loses nothing but the step in hand.\n\n\
+(looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame, and with 3 where no pose is good or \
+numbers are such as no knee has. A run that is stopped (Ctrl-C, a task's end) loses nothing but the step in hand.\n\n\
 Of the standard deviations in track.csv: {}\n\n\
 Examples:\n  cargo xtask track --study study.toml --out tracked\n  \
 cargo xtask track --study study.toml --out tracked --click femur:1:512,400 --click tibia:1:500,640\n  \
 cargo xtask track --study study.toml --out tracked --fixed femur=checked.jts", NEAR_THE_POLE)
 )]
 pub struct Args {
-    /// Study file; it needs the key frames
-    #[arg(long)]
+    /// Study file, or its folder; it needs the key frames
+    #[arg(long, value_parser = study_files())]
     study: PathBuf,
     /// Folder for what is found
     #[arg(long, value_name = "DIR")]
@@ -75,20 +83,23 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<u8> {
+    let remarks: Arc<Mutex<Vec<String>>> = Arc::default();
+    let heard = remarks.clone();
     let request = Request {
+        fixed: fixed(&args)?,
         study: args.study,
         out: args.out,
         clicks: args.click,
-        fixed: args
-            .fixed
-            .iter()
-            .map(FixedPoses::read)
-            .collect::<Result<_>>()?,
         polarity: args.shown.stated(),
         interpolate: args.interpolate,
         anew: args.anew,
-        listener: Arc::new(|told| match told {
-            Told::Remark(what) | Told::Step { what, .. } => eprintln!("{what}"),
+        listener: Arc::new(move |told| match told {
+            Told::Step { what, .. } => eprintln!("{what}"),
+            Told::Remark(what) => {
+                eprintln!("{what}");
+                let mut heard = heard.lock().unwrap_or_else(PoisonError::into_inner);
+                heard.push(what);
+            }
         }),
         stop: Stop::default(),
     };
@@ -100,11 +111,28 @@ pub fn run(args: Args) -> Result<u8> {
     for part in &tracked {
         println!("{part}");
     }
+    let mut wrong = false;
     for told in impossible(&request.study, &request.out) {
+        wrong = true;
         println!("{told}");
     }
-    Ok(match tracked.iter().any(Tracked::is_found) {
-        true => 0,
-        false => exit::NOTHING_FOUND,
+    // Told when the run began, which hundreds of lines may stand below by now.
+    for remark in &*remarks.lock().unwrap_or_else(PoisonError::into_inner) {
+        println!("remark: {remark}");
+    }
+    Ok(match &tracked {
+        none if !none.iter().any(Tracked::is_found) => exit::NOTHING_FOUND,
+        all if wrong || !all.iter().any(Tracked::is_good) => exit::DOUBTFUL,
+        _ => 0,
     })
+}
+
+/// The poses that a person fixed, in the order of the study's frames.
+fn fixed(args: &Args) -> Result<Vec<Fixed>> {
+    if args.fixed.is_empty() {
+        return Ok(Vec::new());
+    }
+    let study = Study::read_quietly(&args.study)?;
+    let frames = study.frames_folder()?;
+    args.fixed.iter().map(|one| one.read(frames)).collect()
 }

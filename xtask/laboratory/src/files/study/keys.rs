@@ -123,6 +123,9 @@ impl Checked {
             if own.starts_with("[component]") {
                 bail!("line {line}: {}", two_brackets("component"));
             }
+            if let Some((key, text)) = without_quotes(own) {
+                bail!("line {line}: {key}: text needs quotes, as in {key} = {text:?}");
+            }
             bail!("line {line}: {}", error.message().replace('\n', ", "))
         })?;
         let mut checked = Self::default();
@@ -291,6 +294,16 @@ impl Kind {
     }
 }
 
+/// The key and the value of a line whose value is a word or path without quotes.
+fn without_quotes(line: &str) -> Option<(&str, &str)> {
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next().unwrap_or(value).trim();
+    let begins = value.starts_with(|first: char| first.is_alphabetic() || "/\\.~_".contains(first));
+    let is_of_toml = ["true", "false", "inf", "nan"].contains(&value);
+    let is_quoted = value.contains(['"', '\'', '[', '{']);
+    (begins && !is_of_toml && !is_quoted).then_some((key.trim(), value))
+}
+
 fn two_brackets(key: &str) -> String {
     format!("[{key}] needs two brackets, [[{key}]]: a study may have several")
 }
@@ -323,7 +336,7 @@ fn line_of(text: &str, byte: usize) -> usize {
 }
 
 /// How many letters have to be put in, left out or changed to make one word of another (Levenshtein).
-fn distance(one: &str, other: &str) -> usize {
+pub(super) fn distance(one: &str, other: &str) -> usize {
     let other: Vec<char> = other.chars().collect();
     let mut row: Vec<usize> = (0..=other.len()).collect();
     for (number, letter) in one.chars().enumerate() {

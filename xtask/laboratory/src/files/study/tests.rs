@@ -195,8 +195,42 @@ const FAULTY: &[(&str, [&str; 2])] = &[
             "name of its own",
         ],
     ),
-    ("STUDY;side = left\nFEMUR;", ["line 3: ", "string"]),
+    (
+        "STUDY;side = left\nFEMUR;",
+        ["line 3: side: text needs quotes", "side = \"left\""],
+    ),
+    (
+        "STUDY;[[component]]\nname = femur # the left one\nmodel = 'f.stl'\n",
+        ["line 4: name: text needs quotes", "as in name = \"femur\""],
+    ),
+    (
+        "STUDY;FEMUR;masks.hand = masks/femur\n",
+        ["line 6: masks.hand: text needs quotes", "\"masks/femur\""],
+    ),
+    ("STUDY;frames_per_s = 15,0\nFEMUR;", ["line 3: ", "newline"]),
 ];
+
+#[test]
+fn a_name_that_is_nearly_that_of_a_component_is_told() {
+    let remarks = |name: &str| {
+        let component = format!("[[component]]\nname = '{name}'\nmodel = 'f.stl'\n");
+        let text = format!("{STUDY}{component}");
+        Study::of(&text, Path::new("s.toml")).expect("a study").1
+    };
+    for (name, role) in [
+        ("tibai", "tibia"),
+        ("Femural", "femur"),
+        ("tibial tray", "tibia"),
+    ] {
+        let told = remarks(name);
+        let words = format!("if it is meant, state role = {role:?}");
+        assert!(
+            matches!(&told[..], [one] if one.starts_with("line 3: ") && one.ends_with(&words)),
+            "{told:?}"
+        );
+    }
+    assert!(remarks("patella").is_empty() && remarks("Femur").is_empty());
+}
 
 #[test]
 fn faults_are_told_with_file_line_key_and_what_was_expected() {

@@ -77,9 +77,13 @@ fn entries(text: &str, folder: &Path) -> Result<Vec<Entry>> {
 }
 
 fn entry(heading: &[String], fields: &[String], folder: &Path) -> Result<Entry> {
+    let quotes = match fields.len() > heading.len() {
+        true => "; what has a comma in it, as a click, stands in quotes: \"femur:1:512,400\"",
+        false => "",
+    };
     ensure!(
         fields.len() == heading.len(),
-        "there are {} columns and not {}",
+        "there are {} columns and not {}{quotes}",
         fields.len(),
         heading.len()
     );
@@ -162,6 +166,10 @@ mod tests {
             ("study,name\na/s.toml,../x\n", "line 2"),
             ("study,name\na/s.toml,nul\n", "line 2"),
             ("study,name\na/s.toml\n", "line 2"),
+            (
+                "study,click\na,femur:1:5,6\n",
+                "in quotes: \"femur:1:512,400\"",
+            ),
         ] {
             let error = entries(text, Path::new("")).unwrap_err();
             assert!(format!("{error:#}").contains(word), "{error:#}");

@@ -1,7 +1,7 @@
 //! What a study's results were made from, and that they are whole: the last file that is written.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
@@ -65,6 +65,12 @@ pub(super) enum Look {
     Whole,
 }
 
+/// A digest of the frames' order where it is not that of letters, which was taken once: results of that order are done again.
+fn order_of(files: &[PathBuf]) -> Option<String> {
+    let names: Vec<String> = files.iter().map(|path| name_of(path)).collect();
+    (!names.is_sorted()).then(|| self::sha256(names.join("\n").as_bytes()))
+}
+
 impl Inputs {
     /// Reads what a study depends on.
     ///
@@ -88,8 +94,10 @@ impl Inputs {
             take(format!("fixed {}", fixed.component), &fixed.file)?;
         }
         let files = files_in(folder)?;
-        let length =
-            |path: &std::path::PathBuf| std::fs::metadata(path).map_or(0, |about| about.len());
+        let length = |path: &PathBuf| std::fs::metadata(path).map_or(0, |about| about.len());
+        if let Some(order) = order_of(&files) {
+            sha256.insert("order of the frames".to_owned(), order);
+        }
         if look == Look::Whole {
             let mut all = Sha256::new();
             for path in &files {

@@ -13,7 +13,7 @@ use super::manifest::{Inputs, Look, Manifest, Settings};
 use crate::files::{Study, write_text};
 use crate::progress::Stop;
 use crate::verbs::report::{self, report};
-use crate::verbs::track::{FixedPoses, Request, Told, Tracked, doubtful_frames, track};
+use crate::verbs::track::{Request, Told, Tracked, doubtful_frames, track};
 
 /// The study's joint, frame by frame.
 pub const JOINT: &str = "joint.csv";
@@ -77,7 +77,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
         fixed: entry
             .fixed
             .iter()
-            .map(FixedPoses::read)
+            .map(|fixed| fixed.read(study.frames_folder()?))
             .collect::<Result<_>>()?,
         polarity: None,
         interpolate: settings.interpolate,

@@ -185,7 +185,7 @@ impl<'s> Part<'s> {
         let mut part = Self {
             component,
             model: read_model_of(&component.model, component.role())?,
-            reference: Reference::of(component)?,
+            reference: Reference::of(component, frames)?,
             found: Vec::new(),
         };
         let wanted = |name: &String| request.source.is_none_or(|source| source == name);

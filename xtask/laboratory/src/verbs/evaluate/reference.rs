@@ -1,11 +1,13 @@
 //! What a component's poses are compared with.
 
+use std::path::Path;
+
 use anyhow::{Result, bail};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 
 use super::table::Row;
-use crate::files::{Component, read_model, read_poses};
+use crate::files::{Component, read_model, read_poses_of};
 use crate::measure::accuracy::{Errors, is_wrong_side, mean, median_absolute, rms};
 
 /// Reference poses of a component.
@@ -17,13 +19,13 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    pub(super) fn of(component: &Component) -> Result<Option<Self>> {
+    pub(super) fn of(component: &Component, frames: Option<&Path>) -> Result<Option<Self>> {
         let Some(path) = &component.reference else {
             return Ok(None);
         };
         let model = read_model(&component.model)?;
         Ok(Some(Self {
-            poses: read_poses(path)?,
+            poses: read_poses_of(path, frames)?,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
         }))
     }

@@ -11,7 +11,8 @@ use fluoropose_report::Input;
 use fluoropose_report::cell::plain;
 
 use crate::files::{
-    Component, Role, Study, csv_fields, name_of, read, read_model_of, read_poses, read_text, sha256,
+    Component, PoseRows, Role, Study, csv_fields, name_of, read, read_model_of, read_poses,
+    read_poses_of, read_text, sha256,
 };
 
 /// A component with its poses.
@@ -67,7 +68,7 @@ impl Sources {
             digest("calibration", &study.calibration)?,
         ];
         let mut body = |role| Body::read(study, role, poses, &mut inputs);
-        let (femur, tibia) = (body(Role::Femur)?, body(Role::Tibia)?);
+        let (mut femur, mut tibia) = (body(Role::Femur)?, body(Role::Tibia)?);
         let (a, b) = (femur.poses.len(), tibia.poses.len());
         if a != b {
             bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");
@@ -80,6 +81,19 @@ impl Sources {
             }
             None => String::new(),
         };
+        let (mut doubts, mut checked) = (doubts(&states), checked(&states));
+        if let Some(folder) = poses
+            && let Some(rows) = PoseRows::of(folder, study.frames.as_deref())?
+        {
+            eprintln!("{}", rows.words(folder));
+            femur.set_rows(&rows)?;
+            tibia.set_rows(&rows)?;
+            doubts = by_frame(doubts, &rows);
+            checked = checked
+                .iter()
+                .filter_map(|&row| rows.frame_of(row))
+                .collect();
+        }
         let constants = poses.map(|folder| folder.join("film.csv"));
         let film = match constants.filter(|table| table.is_file()) {
             Some(table) => {
@@ -95,13 +109,18 @@ impl Sources {
         Ok(Self {
             femur,
             tibia,
-            doubts: doubts(&states),
-            checked: checked(&states),
+            doubts,
+            checked,
             film,
             whose,
             inputs,
         })
     }
+}
+
+fn by_frame<T>(of_rows: BTreeMap<usize, T>, rows: &PoseRows) -> BTreeMap<usize, T> {
+    let frame = |(row, one)| Some((rows.frame_of(row)?, one));
+    of_rows.into_iter().filter_map(frame).collect()
 }
 
 /// What [`crate::verbs::track`] wrote of a film; rows that are none of it are passed over.
@@ -133,6 +152,12 @@ fn constants_of_film(table: &str) -> Vec<(String, String)> {
 }
 
 impl Body {
+    fn set_rows(&mut self, rows: &PoseRows) -> Result<()> {
+        self.poses = rows.rows(&self.poses)?;
+        self.uncertain = by_frame(std::mem::take(&mut self.uncertain), rows);
+        Ok(())
+    }
+
     fn read(
         study: &Study,
         role: Role,
@@ -167,7 +192,11 @@ impl Body {
             name: component.name.clone(),
             stated_axes: component.axes.clone(),
             model: read_model_of(&component.model, component.role())?,
-            poses: read_poses(&file)?,
+            poses: match poses {
+                // Its covariances are put to the frames with them.
+                Some(_) => read_poses(&file)?,
+                None => read_poses_of(&file, study.frames.as_deref())?,
+            },
             uncertain,
         })
     }

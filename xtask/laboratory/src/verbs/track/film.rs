@@ -60,6 +60,12 @@ impl Tracked {
     pub fn is_found(&self) -> bool {
         self.rows.iter().any(|row| row.pose.is_some())
     }
+
+    /// Whether it is good in any frame.
+    #[must_use]
+    pub fn is_good(&self) -> bool {
+        self.rows.iter().any(|row| row.verdict() == "good")
+    }
 }
 
 /// Frames in which a component is not known well.
@@ -99,6 +105,9 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let calibration = read_calibration(&study.calibration)?;
     let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
+    if let Some(gaps) = film.gaps() {
+        (request.listener)(Told::Remark(gaps));
+    }
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
     for doubt in doubts {
@@ -122,6 +131,7 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let parts = |polarity| -> Result<Vec<Part<'_>>> {
         let part = |(number, (component, model))| {
             Part::new(number, component, model, &calibration, camera, polarity)
+                .with_context(|| format!("the component {}", component.name))
         };
         components().map(part).collect()
     };

@@ -1,6 +1,6 @@
 //! What is asked of `track`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use fluoropose::pose::Pose;
 use fluoropose::refine::Polarity;
 
-use crate::files::{Film, read_poses};
+use crate::files::{Film, read_poses_of};
 use crate::options::Pair;
 use crate::progress::Stop;
 
@@ -147,14 +147,14 @@ pub struct FixedPoses {
 }
 
 impl FixedPoses {
-    /// Reads the file.
+    /// Reads the file, for the frames of a folder: a table beside it may tell another order of rows.
     ///
     /// # Errors
-    /// Names the file and the line.
-    pub fn read(&self) -> Result<Fixed> {
+    /// Names the file and the line; for poses of other frames.
+    pub fn read(&self, frames: &Path) -> Result<Fixed> {
         Ok(Fixed {
             component: self.component.clone(),
-            poses: read_poses(&self.file)?,
+            poses: read_poses_of(&self.file, Some(frames))?,
             called: self.file.display().to_string(),
         })
     }
