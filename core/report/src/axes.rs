@@ -33,6 +33,7 @@ impl Scale {
     }
 
     /// An axis from the one number to the other, with some `marks` marks between them.
+    #[cfg(feature = "png")]
     pub(crate) fn between([low, high]: [f64; 2], marks: f64, from: f64, to: f64) -> Self {
         Self {
             low,

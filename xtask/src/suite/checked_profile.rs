@@ -1,5 +1,15 @@
 //! How tests are compiled.
 
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::Result;
+
+use crate::setup::rust_target::own_cargo;
+use crate::setup::{command, components};
+use crate::workspace;
+
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
 pub(crate) const CHECKED: [&str; 5] = [
@@ -9,3 +19,36 @@ pub(crate) const CHECKED: [&str; 5] = [
     "--config",
     "profile.release.package.fluoropose.debug-assertions=true",
 ];
+
+/// Cargo on the whole workspace, compiled by the linter: what one command has built the next finds.
+///
+/// # Errors
+/// Where there is no linter.
+pub(crate) fn cargo(what: &str, options: &[&str]) -> Result<Command> {
+    let mut cargo = own_cargo();
+    cargo
+        .args([what, "--workspace"])
+        .args(CHECKED)
+        .args(options);
+    components::lint(&mut cargo)?;
+    Ok(cargo)
+}
+
+/// The laboratory's program as tests compile it. Who asks while it is being built waits for that, and for nothing else that is built with
+/// it. Compiled in another way it would overwrite what modules of the page leave without a number in their files' names, and the tests
+/// would be built anew.
+///
+/// # Errors
+/// Where it does not compile.
+pub(crate) fn laboratory() -> Result<PathBuf> {
+    static BUILT: Mutex<Option<PathBuf>> = Mutex::new(None);
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(program) = &*built {
+        return Ok(program.clone());
+    }
+    command::run(&mut cargo("build", &["--bin", "fluoropose"])?)?;
+    let name = format!("release/fluoropose{}", std::env::consts::EXE_SUFFIX);
+    let program = workspace::target_dir().join(name);
+    *built = Some(program.clone());
+    Ok(program)
+}

@@ -2,14 +2,15 @@
 
 use std::fs;
 use std::process::Command;
+use std::thread;
 
 use anyhow::{Result, ensure};
 
-use super::checked_profile::CHECKED;
+use super::checked_profile;
 use super::counts;
 use super::python;
 use super::report::{Report, Said};
-use crate::output::say;
+use crate::output::{self, Lane, say};
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
@@ -29,9 +30,11 @@ pub(crate) fn run(report: &mut Report) {
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
     });
     report.step("native: compiled, with lints", || {
+        // First what tests in a browser wait for.
+        checked_profile::laboratory()?;
         // Not `--all-targets`, which makes a program of the Python extension's tests: it has none.
         let everything = ["--lib", "--bins", "--tests", "--benches", "--examples"];
-        quiet(&mut checked("build", &everything)?)
+        quiet(&mut checked_profile::cargo("build", &everything)?)
     });
     report.step("native: layers and cycles", || {
         // It was built with everything else.
@@ -39,10 +42,28 @@ pub(crate) fn run(report: &mut Report) {
         let program = workspace::target_dir().join(name);
         quiet(Command::new(program).arg("--root").arg(workspace::root()))
     });
-    report.step("native: tests", || {
-        tests(&mut checked("test", &["--no-fail-fast"])?)
+    // Cargo runs one test program after the other, and many have one long test: what needs no more than the build goes beside them.
+    let beside = thread::scope(|scope| {
+        let lane = Lane {
+            name: "beside",
+            gives_way: output::lane().map_or(0, |lane| lane.gives_way),
+        };
+        let beside = scope.spawn(move || lane.work(beside_the_tests));
+        report.step("native: tests", || {
+            tests(&mut checked_profile::cargo("test", &["--no-fail-fast"])?)
+        });
+        beside.join()
     });
-    python::quick(report);
+    match beside {
+        Ok(steps) => report.add(steps),
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// Steps that read what is built, and change nothing of it.
+fn beside_the_tests() -> Report {
+    let mut report = Report::new();
+    python::quick(&mut report);
     report.step("native: examples of the core", || {
         EXAMPLES.into_iter().try_for_each(|name| {
             // The tests built them.
@@ -51,40 +72,32 @@ pub(crate) fn run(report: &mut Report) {
         })?;
         Ok(Said::default())
     });
-    report.step("native: pages of the crates", || {
-        let crates = [
-            "fluoropose",
-            "fluoropose-tracing",
-            "fluoropose-distortion",
-            "fluoropose-kernels",
-            "fluoropose-embedded",
-        ];
-        let packages = crates.iter().flat_map(|name| ["--package", name]);
-        let mut cargo = own_cargo();
-        cargo.args([
-            "doc",
-            "--no-deps",
-            "--release",
-            "--features",
-            "fluoropose/alloc",
-        ]);
-        quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
-    });
+    report.step("native: pages of the crates", pages_of_the_crates);
+    report
+}
+
+fn pages_of_the_crates() -> Result<Said> {
+    let crates = [
+        "fluoropose",
+        "fluoropose-tracing",
+        "fluoropose-distortion",
+        "fluoropose-kernels",
+        "fluoropose-embedded",
+    ];
+    let packages = crates.iter().flat_map(|name| ["--package", name]);
+    let mut cargo = own_cargo();
+    cargo.args([
+        "doc",
+        "--no-deps",
+        "--release",
+        "--features",
+        "fluoropose/alloc",
+    ]);
+    quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 fn quiet(command: &mut Command) -> Result<Said> {
     Ok(command::run(command)?.into())
-}
-
-/// Cargo on the whole workspace, compiled by the linter: what one command has built the next finds.
-fn checked(what: &str, options: &[&str]) -> Result<Command> {
-    let mut cargo = own_cargo();
-    cargo
-        .args([what, "--workspace"])
-        .args(CHECKED)
-        .args(options);
-    components::lint(&mut cargo)?;
-    Ok(cargo)
 }
 
 /// Runs `cargo test` and counts what it ran, and what of that found nothing to check.
