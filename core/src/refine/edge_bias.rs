@@ -166,12 +166,16 @@ impl EdgeBias {
             return covariance;
         };
         let mut matrix = covariance.matrix;
+        let of = |shift: &[f64; 6], number: usize| shift.get(number).copied().unwrap_or_default();
+        let (constants, [common]) = shifts.split_at(CONSTANTS) else {
+            return covariance;
+        };
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
-                *value += shifts[CONSTANTS][row] * shifts[CONSTANTS][column];
-                for (a, one) in shifts.iter().take(CONSTANTS).enumerate() {
-                    for (b, other) in shifts.iter().take(CONSTANTS).enumerate() {
-                        *value += self.correlation[a][b] * one[row] * other[column];
+                *value += of(common, row) * of(common, column);
+                for (one, correlated) in constants.iter().zip(&self.correlation) {
+                    for (other, correlation) in constants.iter().zip(correlated) {
+                        *value += correlation * of(one, row) * of(other, column);
                     }
                 }
             }

@@ -6,6 +6,7 @@ use std::process::Command;
 use anyhow::Result;
 
 use super::board_rows::{self, Row};
+use super::calls;
 use super::firmware::{self, FINDER, LIBRARY, Program, SMALL_FINDER};
 use super::native;
 use super::report::{Report, Said};
@@ -100,7 +101,9 @@ fn example_in_c(rows: &mut Vec<Row>) -> Result<Said> {
     let (gcc, qemu) = (programs::arm_gcc()?, programs::qemu_arm()?);
     let library = static_library(&toolchain)?;
     let image = linked(&gcc, &library)?;
-    let lines = firmware::on_board(&qemu, firmware::M4F, &image)?;
+    let mut lines = firmware::on_board(&qemu, firmware::M4F, &image)?;
+    let code = calls::code_bytes(&std::fs::read(&image)?)?;
+    lines.push_str(&format!("info: code: {code} bytes\n"));
     agree("Cortex-M4F", "C", &FINDER, &lines, &toolchain, rows)
 }
 
