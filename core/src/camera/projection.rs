@@ -9,6 +9,7 @@ use crate::math::{Decimal, Vector3};
 
 /// Why numbers do not make a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CameraError {
     /// A value is NaN, infinite or out of its range.
     #[error("the calibration's {name} is {}; it must be {rule}", Decimal::brief(*value))]

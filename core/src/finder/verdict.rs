@@ -51,6 +51,7 @@ impl Limits {
 
 /// Why a pose is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Doubt {
     /// A part of the model's outline has no counterpart: hidden, cut off, or of another implant.
     Unmet {
@@ -99,6 +100,7 @@ pub enum Doubt {
 
 /// Why no pose explains a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// The outline is not the model's from any side.
     NoFit {
@@ -111,6 +113,7 @@ pub enum Refusal {
 
 /// How far a chosen pose is to be trusted. Displayed, it is a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Verdict {
     /// The model's outline lies on what was seen, all round, and no other pose does.
     Good,

@@ -14,6 +14,7 @@ pub type Contour<const N: usize> = Vec<Point, N>;
 
 /// Why a polygon is not an outline. Fields count points from 0, sentences from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum OutlineError {
     /// Fewer than three vertices.
     #[error("the outline has {0} points; it needs at least 3")]

@@ -18,6 +18,7 @@ pub const MAX_SIDE: usize = 16_384;
 
 /// Why a buffer is not a mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MaskError {
     /// The shape is empty or larger than [`MAX_SIDE`].
     #[error(

@@ -7,6 +7,7 @@ use crate::math::Vector3;
 
 /// Why vertices and triangles are not a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MeshError {
     /// There is nothing to draw.
     #[error("the model has no triangles")]

@@ -9,6 +9,7 @@ use crate::render::RenderError;
 
 /// Why no pose was found from a part of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum PartialError {
     /// No side of the mask has two known pixels, in pieces long enough to use.
     #[error(
