@@ -47,11 +47,14 @@ struct Block {
 impl Block {
     fn add(&mut self, sample: &BorderPixel, motion: &Motion, moved: [f32; CONSTANTS + 1]) {
         let jacobian = motion.jacobian(sample);
-        for (row, a) in jacobian.map(|a| sample.weight * a).into_iter().enumerate() {
-            for (pull, moved) in self.pulls.iter_mut().zip(moved) {
-                pull[row] += a * moved;
+        for (pull, moved) in self.pulls.iter_mut().zip(moved) {
+            for (sum, a) in pull.iter_mut().zip(&jacobian) {
+                *sum += sample.weight * a * moved;
             }
-            for (sum, &b) in self.information[row].iter_mut().zip(&jacobian) {
+        }
+        for (row, a) in self.information.iter_mut().zip(&jacobian) {
+            let a = sample.weight * a;
+            for (sum, &b) in row.iter_mut().zip(&jacobian) {
                 *sum += a * b;
             }
         }
