@@ -5,6 +5,7 @@ use thiserror::Error;
 /// A borrowed slice is too short. A longer one is never an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("{needed} {what} are needed as working memory but {given} were given")]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TooLittleMemory {
     /// What the slice holds, in the plural.
     pub what: &'static str,

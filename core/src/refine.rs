@@ -64,4 +64,6 @@ pub(crate) use run::{begin, correct_unless, finish, probe};
 pub use run::{correct, refine, refine_paced, refine_traced};
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::{Assessment, assess, fit_at, uncertainty};
+#[cfg(not(feature = "frames"))]
+pub use view::NoFrame;
 pub use view::{CameraView, ImageTarget, Polarity, Target};

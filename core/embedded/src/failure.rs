@@ -11,6 +11,7 @@ use thiserror::Error;
 /// `fluoropose_status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(i32)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
     /// `FLUOROPOSE_OK`.
     Ok = 0,
@@ -38,6 +39,7 @@ pub enum Status {
 
 /// Why there is no answer; displayed, a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Failure {
     /// Memory is too short for what was asked for.
     #[error("memory is too short for the room that was asked for")]

@@ -11,6 +11,7 @@ pub use fluoropose::Point as PointNumbers;
 /// `fluoropose_room`: how much there is to be memory for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Room {
     /// Columns of the largest part of a frame: a silhouette and 24 pixels around it.
     pub columns: u32,
@@ -25,6 +26,7 @@ pub struct Room {
 /// `fluoropose_camera`: pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CameraNumbers {
     /// Columns of the frame.
     pub width: u32,
@@ -66,6 +68,7 @@ impl CameraNumbers {
 /// `fluoropose_calibration`: a camera by the field's quantities.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CalibrationNumbers {
     /// Columns of the frame.
     pub width: u32,
@@ -94,6 +97,7 @@ impl CalibrationNumbers {
 /// `fluoropose_found`: what was found, and how far it is to be trusted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FoundNumbers {
     /// 0 good, 1 doubtful, 2 none.
     pub verdict: u32,
@@ -124,6 +128,7 @@ impl FoundNumbers {
 /// `fluoropose_candidate`: a pose and how well it fits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CandidateNumbers {
     /// `camera_from_model`, row by row.
     pub rotation: [[f64; 3]; 3],

@@ -5,13 +5,14 @@ use thiserror::Error;
 use crate::image::contour::Point;
 use crate::image::crop::Crop;
 use crate::image::mask::MAX_SIDE;
-use crate::math::Vector3;
+use crate::math::{Decimal, Vector3};
 
 /// Why numbers do not make a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CameraError {
     /// A value is NaN, infinite or out of its range.
-    #[error("the calibration's {name} is {value}; it must be {rule}")]
+    #[error("the calibration's {name} is {}; it must be {rule}", Decimal::brief(*value))]
     Value {
         /// Which value.
         name: &'static str,

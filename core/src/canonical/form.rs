@@ -20,6 +20,7 @@ impl Default for CanonicalSpec {
 
 /// Why a silhouette has no canonical form.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CanonicalError {
     /// The canonical frame cannot be that large or hold that area.
     #[error(

@@ -56,24 +56,33 @@ impl Inverse {
 
     /// `None` where a box is too wide for a word.
     fn boxes(&self, size: usize) -> Option<Boxes> {
-        let half = [0, 1].map(|axis| HALF_CELL * (self.column[axis].abs() + self.row[axis].abs()));
+        let [along, across] = [self.column, self.row];
+        let half = |axis: usize| HALF_CELL * (along[axis].abs() + across[axis].abs());
+        let half = [half(0), half(1)];
         // Two more pixels at most: one for the border between pixels, one to the right.
         let widest = (WORD_BITS / 2 - 1) as f64;
         if !(half[0] <= widest && half[1] <= size as f64) {
             return None;
         }
         let fixed = |canonical: f64| (canonical * (1u64 << PLACES) as f64) as i64;
-        let middle = [0, 1].map(|axis| {
-            let column = (1.0 - self.centre.column) * self.column[axis];
-            let row = (1.0 - self.centre.row) * self.row[axis];
+        let middle = |axis: usize| {
+            let column = (1.0 - self.centre.column) * along[axis];
+            let row = (1.0 - self.centre.row) * across[axis];
             (size as f64 - 1.0) / 2.0 + column + row
-        });
+        };
+        let middle = [middle(0), middle(1)];
         Some(Boxes {
             size: size as i64,
             column: self.column.map(fixed),
             row: self.row.map(fixed),
-            first: [0, 1].map(|axis| fixed(middle[axis] - half[axis] + 1.0)),
-            end: [0, 1].map(|axis| fixed(middle[axis] + half[axis] + 2.0 - axis as f64)),
+            first: [
+                fixed(middle[0] - half[0] + 1.0),
+                fixed(middle[1] - half[1] + 1.0),
+            ],
+            end: [
+                fixed(middle[0] + half[0] + 2.0),
+                fixed(middle[1] + half[1] + 1.0),
+            ],
         })
     }
 }

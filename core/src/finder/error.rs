@@ -10,6 +10,7 @@ use crate::render::RenderError;
 
 /// Why nothing was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FindError {
     /// The silhouette has no canonical form, or working memory of the library is too short.
     #[error(transparent)]

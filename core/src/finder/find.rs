@@ -154,10 +154,12 @@ pub async fn find_paced(
     };
     match wanted.goal {
         Goal::Library => way.as_the_library_has_them(&mut first, candidates),
-        Goal::Outline => way.on_outline(&mut first, candidates).await,
-        Goal::Image(image) => {
+        goal => {
             way.on_outline(&mut first, candidates).await?;
-            way.on_image(image, candidates)
+            match goal {
+                Goal::Image(image) => way.on_image(image, candidates),
+                _ => Ok(()),
+            }
         }
     }
 }

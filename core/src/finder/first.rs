@@ -8,7 +8,7 @@ use super::memory::FinderMemory;
 use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
-use crate::locate::partial::{known_fraction, locate_partial};
+use crate::locate::partial::{PartialError, known_fraction, locate_partial};
 use crate::locate::rerank::{Reranked, rerank_paced};
 use crate::locate::{LocatedPoses, locate};
 use crate::pace::{Pace, at_once};
@@ -137,6 +137,9 @@ pub(super) fn add_of_pieces(
     first: &mut FirstPoses,
 ) -> Result<(), FindError> {
     first.poses.clear();
+    if cfg!(not(feature = "pieces")) {
+        return Err(PartialError::LeftOut.into());
+    }
     let Component { library, model, .. } = component;
     let partial = memory.partial.reborrow();
     first.poses = locate_partial(silhouette, camera, library, model, partial)?;

@@ -72,7 +72,7 @@ pub fn nearby(
             }
         }
     }
-    let mut poses: Vec<Pose, NEARBY> = first_of(found.into_iter().map(|(_, pose)| pose));
+    let mut poses: Vec<Pose, NEARBY> = first_of(found.iter().map(|&(_, pose)| pose));
     // One place was left for it.
     let _ = poses.push(*start);
     poses

@@ -85,7 +85,7 @@ pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
     let least = rivals.first().map_or(0, |best| best.unmatched);
     let limit = WORTH_REFINING * least as f64;
     let count = rivals.partition_point(|rival| rival.unmatched as f64 <= limit);
-    &rivals[..count.min(STARTS)]
+    rivals.get(..count.min(STARTS)).unwrap_or(rivals)
 }
 
 /// Refines the first [`STARTS`] poses of `starts`, and then their mirror images in each of `planes`, the model's planes of

@@ -11,6 +11,7 @@ use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{Choice, OpenRival, RivalPose};
+use crate::math::Decimal;
 use crate::pose::geodesic_deg;
 use crate::refine::{Fit, MET_WITHIN_PX};
 use crate::shortlist::first_of;
@@ -50,6 +51,7 @@ impl Limits {
 
 /// Why a pose is doubtful.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Doubt {
     /// A part of the model's outline has no counterpart: hidden, cut off, or of another implant.
     Unmet {
@@ -98,6 +100,7 @@ pub enum Doubt {
 
 /// Why no pose explains a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// The outline is not the model's from any side.
     NoFit {
@@ -110,6 +113,7 @@ pub enum Refusal {
 
 /// How far a chosen pose is to be trusted. Displayed, it is a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Verdict {
     /// The model's outline lies on what was seen, all round, and no other pose does.
     Good,
@@ -157,32 +161,39 @@ impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Unmet { part } => {
-                let percent = 100.0 * part;
+                let percent = Decimal::new(100.0 * part, 0);
                 write!(
                     f,
-                    "{percent:.0} % of the model's outline has no counterpart within {MET_WITHIN_PX} px: is a part hidden or cut off, or is it another implant?"
+                    "{percent} % of the model's outline has no counterpart within {} px: is a part hidden or cut off, or is it another implant?",
+                    Decimal::brief(MET_WITHIN_PX)
                 )
             }
             Self::Apart { px, limit_px } => write!(
                 f,
-                "the outlines lie {px:.1} px apart, those of a good fit at most {limit_px:.1} px: trace again, or is it another size or implant?"
+                "the outlines lie {} px apart, those of a good fit at most {} px: trace again, or is it another size or implant?",
+                Decimal::new(px, 1),
+                Decimal::new(limit_px, 1)
             ),
             Self::Behind { mm } => write!(
                 f,
-                "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
+                "it would lie {} mm behind the detector: is the calibration of frames of another size, or the model in another unit?",
+                Decimal::new(mm, 0)
             ),
             Self::Small { px } => write!(
                 f,
-                "the silhouette is {px:.0} pixels across: too few to tell a pose"
+                "the silhouette is {} pixels across: too few to tell a pose",
+                Decimal::new(px, 0)
             ),
             Self::Unknown { known } => {
-                let percent = 100.0 * known;
-                write!(f, "only {percent:.0} % of the model's outline is known")
+                let percent = Decimal::new(100.0 * known, 0);
+                write!(f, "only {percent} % of the model's outline is known")
             }
             Self::Undetermined => f.write_str("the outline does not determine the pose"),
             Self::Unusual { px, limit_px } => write!(
                 f,
-                "{px:.2} px remain, on this film at most {limit_px:.2} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
+                "{} px remain, on this film at most {} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?",
+                Decimal::new(px, 2),
+                Decimal::new(limit_px, 2)
             ),
             Self::Open { turn_deg, other_px } => {
                 // What is written as 1.
@@ -190,7 +201,9 @@ impl fmt::Display for Doubt {
                 let unit = if is_one { "degree" } else { "degrees" };
                 write!(
                     f,
-                    "another pose, {turn_deg:.0} {unit} away, fits as well ({other_px:.2} px), and nothing tells which is right"
+                    "another pose, {} {unit} away, fits as well ({} px), and nothing tells which is right",
+                    Decimal::new(turn_deg, 0),
+                    Decimal::new(other_px, 2)
                 )
             }
         }
@@ -200,10 +213,11 @@ impl fmt::Display for Doubt {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self::NoFit { misfit_px, met } = *self;
-        let percent = 100.0 * met;
+        let percent = Decimal::new(100.0 * met, 0);
         write!(
             f,
-            "the outline does not fit this model from any side: {misfit_px:.1} px, and {percent:.0} % of the model's outline is met; is it the other component's, another implant's, or mirrored?"
+            "the outline does not fit this model from any side: {} px, and {percent} % of the model's outline is met; is it the other component's, another implant's, or mirrored?",
+            Decimal::new(misfit_px, 1)
         )
     }
 }

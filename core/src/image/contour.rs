@@ -4,6 +4,7 @@ use heapless::Vec;
 use thiserror::Error;
 
 use super::crossing::orientation;
+use crate::math::Decimal;
 
 pub use super::crossing::first_crossing;
 pub use super::point::Point;
@@ -13,6 +14,7 @@ pub type Contour<const N: usize> = Vec<Point, N>;
 
 /// Why a polygon is not an outline. Fields count points from 0, sentences from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum OutlineError {
     /// Fewer than three vertices.
     #[error("the outline has {0} points; it needs at least 3")]
@@ -22,7 +24,7 @@ pub enum OutlineError {
     NotFinite(usize),
     /// A vertex lies beyond the frame's border.
     #[error(
-        "point {} of the outline, at column {column:.1}, row {row:.1}, is outside the frame", index + 1
+        "point {} of the outline, at column {}, row {}, is outside the frame", index + 1, Decimal::new(*column, 1), Decimal::new(*row, 1)
     )]
     OutsideFrame {
         /// Which vertex, from 0.

@@ -40,8 +40,8 @@ impl Line<'_> {
         if second == first + 1 || (first == 0 && second == self.count - 1) {
             return folds_back(a, b);
         }
-        // Most pairs are far apart: boxes are compared before anything is multiplied.
-        Extent::of(a).meets(&Extent::of(b)) && segments_meet(a, b)
+        // Most pairs are far apart: boxes are compared before anything is multiplied, first those of a part of each number.
+        Extent::of(a).meets(&Extent::of(b)) && boxes_meet(a, b) && segments_meet(a, b)
     }
 
     fn first_pair(&self) -> Option<(usize, usize)> {
@@ -100,11 +100,11 @@ fn halves(range: Range<usize>) -> [Range<usize>; 2] {
     [range.start..middle, middle..range.end]
 }
 
-/// Least and greatest column and row, as whole numbers of the same order: to compare those takes a tenth of the time on a
-/// processor without numbers of 64 bits.
+/// Least and greatest column and row, as whole numbers that rise with them ([`keys`]): to compare those takes a tenth of the time on
+/// a processor without numbers of 64 bits. Boxes that are apart by a millionth of their place may seem to meet.
 struct Extent {
-    low: [i64; 2],
-    high: [i64; 2],
+    low: [i32; 2],
+    high: [i32; 2],
 }
 
 impl Extent {
@@ -122,26 +122,39 @@ impl Extent {
         both
     }
 
+    #[inline]
     fn grow(&mut self, point: Point) {
-        for (axis, key) in keys(point).into_iter().enumerate() {
-            self.low[axis] = self.low[axis].min(key);
-            self.high[axis] = self.high[axis].max(key);
-        }
+        let [column, row] = keys(point);
+        self.low = [self.low[0].min(column), self.low[1].min(row)];
+        self.high = [self.high[0].max(column), self.high[1].max(row)];
     }
 
     fn meets(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.high[axis] >= other.low[axis] && other.high[axis] >= self.low[axis])
+        let meets =
+            |axis: usize| self.high[axis] >= other.low[axis] && other.high[axis] >= self.low[axis];
+        meets(0) && meets(1)
     }
 }
 
-/// Numbers that compare as the coordinates do.
-fn keys(point: Point) -> [i64; 2] {
-    [point.column, point.row].map(|value| match value.to_bits() as i64 {
-        // Both zeros are one.
-        i64::MIN => 0,
-        bits if bits < 0 => bits ^ i64::MAX,
-        bits => bits,
-    })
+/// Numbers that rise with the coordinates, though not each time: the upper half of their bits.
+#[inline]
+fn keys(point: Point) -> [i32; 2] {
+    let key = |value: f64| {
+        let upper = (value.to_bits() >> 32) as i32;
+        // Below zero it is the other way round; both zeros are one.
+        if upper < 0 {
+            (upper ^ i32::MAX).wrapping_add(1)
+        } else {
+            upper
+        }
+    };
+    [key(point.column), key(point.row)]
+}
+
+/// Whether the boxes of two sides meet, in all bits.
+fn boxes_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let meet = |a: f64, b: f64, c: f64, d: f64| a.max(b) >= c.min(d) && c.max(d) >= a.min(b);
+    meet(a.column, b.column, c.column, d.column) && meet(a.row, b.row, c.row, d.row)
 }
 
 /// Twice the signed area of the triangle `a b c`.

@@ -18,6 +18,7 @@ pub const MAX_SIDE: usize = 16_384;
 
 /// Why a buffer is not a mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MaskError {
     /// The shape is empty or larger than [`MAX_SIDE`].
     #[error(
@@ -67,6 +68,7 @@ pub const fn words_needed(width: usize, height: usize) -> usize {
 }
 
 /// Where the words of a row are; nowhere for a row below the mask, whose place no number may hold.
+#[inline(always)]
 fn row_place(width: usize, height: usize, row: usize) -> core::ops::Range<usize> {
     if row >= height {
         return 0..0;
@@ -144,6 +146,7 @@ impl<'a> Mask<'a> {
 
     /// The words of one row; empty below the mask.
     #[must_use]
+    #[inline]
     pub fn row(&self, row: usize) -> &'a [Word] {
         let place = row_place(self.width, self.height, row);
         self.words.get(place).unwrap_or_default()

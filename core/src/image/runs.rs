@@ -11,6 +11,7 @@ use crate::memory::TooLittleMemory;
 
 /// Why a row does not belong to a silhouette.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunsError {
     /// No mask can be so large.
     #[error(transparent)]

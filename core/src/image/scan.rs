@@ -50,7 +50,8 @@ impl FixedPoint {
     /// The nearest fixed point, and whether it is one: outside of [`MAX_COORDINATE`] it is not.
     /// Without a branch, so that many can be rounded at once.
     pub(crate) fn rounded(Point { column, row }: Point) -> (Self, bool) {
-        let inside = |value: f64| value.abs() <= MAX_COORDINATE;
+        // As `<=`: numbers above zero rise with their bits, and a NaN has more than any.
+        let inside = |value: f64| value.abs().to_bits() <= MAX_COORDINATE.to_bits();
         // The sum is rounded to a whole number (of two as near, to the even one).
         let fix = |value: f64| (value * ONE as f64 + WHOLE).to_bits() as i32;
         let point = Self {
@@ -118,37 +119,51 @@ pub(crate) fn rows_between([a, b]: [FixedPoint; 2], height: usize) -> Range<usiz
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     from: FixedPoint,
-    right: i64,
-    down: i64,
-    per_step: f64,
+    /// To its other end: 31 bits at most.
+    right: i32,
+    down: i32,
 }
 
 impl Edge {
     pub(crate) fn new([a, b]: [FixedPoint; 2]) -> Self {
         let (from, to) = if a.row <= b.row { (a, b) } else { (b, a) };
-        let down = i64::from(to.row) - i64::from(from.row);
         Self {
             from,
-            right: i64::from(to.column) - i64::from(from.column),
-            down,
-            // Infinite for a level edge, which crosses no row.
-            per_step: 1.0 / (down * ONE) as f64,
+            right: to.column.wrapping_sub(from.column),
+            down: to.row.wrapping_sub(from.row),
         }
     }
 
-    /// The first column whose centre is at or to the right of the edge on a row that it crosses:
-    /// the quotient of two integers, rounded up.
-    ///
-    /// A 64-bit division costs more than the rest of a span together. The quotient is
-    /// therefore estimated in floating point, which errs by far less than one at these sizes,
-    /// and put right by its integer remainder: the result is exact.
-    pub(crate) fn column_at(&self, row: usize) -> i64 {
-        let centre = row as i64 * ONE + HALF - i64::from(self.from.row);
-        let numerator = (i64::from(self.from.column) - HALF) * self.down + self.right * centre;
-        let step = self.down * ONE;
-        let estimate = (numerator as f64 * self.per_step) as i64;
-        let remainder = numerator - estimate * step;
-        estimate + i64::from(remainder > 0) - i64::from(remainder <= -step)
+    /// Rows that it crosses, and on each the first column whose centre is at or to the right of it: the quotient of two integers,
+    /// rounded up, and from row to row their sums. Exact.
+    pub(crate) fn columns(&self, rows: Range<usize>) -> impl Iterator<Item = (usize, i64)> + use<> {
+        // A level edge crosses no row.
+        let down = self.down.max(1);
+        let (whole, part) = (self.right.div_euclid(down), self.right.rem_euclid(down));
+        let [whole, part, down] = [whole, part, down].map(i64::from);
+        let centre = rows.start as i64 * ONE + HALF - i64::from(self.from.row);
+        let (beyond, rest) = quotient((part * centre) as u64, down as u64);
+        // In units of 1/4096 pixel, and that many parts of one as `down` is.
+        let place = i64::from(self.from.column) - HALF + whole * centre + beyond as i64;
+        let mut column = (place + i64::from(rest > 0) + ONE - 1) >> PLACES;
+        // How far the edge is from that centre, -1 to 0 columns, in such parts.
+        let mut left = (place - column * ONE) * down + rest as i64;
+        rows.map(move |row| {
+            let own = column;
+            (column, left) = (column + whole, left + part * ONE);
+            if left > 0 {
+                (column, left) = (column + 1, left - down * ONE);
+            }
+            (row, own)
+        })
+    }
+}
+
+/// Quotient and remainder. Most numbers have 32 bits: those of 64 a microcontroller divides bit by bit.
+fn quotient(number: u64, by: u64) -> (u64, u64) {
+    match (u32::try_from(number), u32::try_from(by)) {
+        (Ok(number), Ok(by)) => (u64::from(number / by.max(1)), u64::from(number % by.max(1))),
+        _ => (number / by.max(1), number % by.max(1)),
     }
 }
 
@@ -188,8 +203,8 @@ pub(crate) fn triangle_spans(
     let long = Edge::new([a, c]);
     for ends in [[a, b], [b, c]] {
         let short = Edge::new(ends);
-        for row in rows_between(ends, height) {
-            let (x, y) = (long.column_at(row), short.column_at(row));
+        let rows = rows_between(ends, height);
+        for ((row, x), (_, y)) in long.columns(rows.clone()).zip(short.columns(rows)) {
             fill(row, x.min(y), x.max(y));
         }
     }
@@ -210,7 +225,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_estimated_quotient_is_the_exact_one(
+        fn columns_are_exact_quotients(
             a in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
             b in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
             near in any::<bool>(),
@@ -226,10 +241,12 @@ mod tests {
             let row = rows.start + (fraction * rows.len() as f64) as usize;
             let ((x, y), (to_x, to_y)) = if a.1 <= b.1 { (a, b) } else { (b, a) };
             let (down, right) = (i128::from(to_y) - i128::from(y), i128::from(to_x) - i128::from(x));
-            let centre = row as i128 * i128::from(ONE) + i128::from(HALF) - i128::from(y);
-            let numerator = (i128::from(x) - i128::from(HALF)) * down + right * centre;
-            let exact = -(-numerator).div_euclid(down * i128::from(ONE));
-            prop_assert_eq!(i128::from(edge.column_at(row)), exact);
+            for (row, column) in edge.columns(row..rows.end.min(row + 200)) {
+                let centre = row as i128 * i128::from(ONE) + i128::from(HALF) - i128::from(y);
+                let numerator = (i128::from(x) - i128::from(HALF)) * down + right * centre;
+                let exact = -(-numerator).div_euclid(down * i128::from(ONE));
+                prop_assert_eq!(i128::from(column), exact, "row {}", row);
+            }
         }
     }
 }

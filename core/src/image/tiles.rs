@@ -30,12 +30,12 @@ impl Tiles {
     pub(crate) fn around(ends: impl Iterator<Item = [i32; 2]>, least_places: u32) -> Self {
         let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
         for end in ends {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(end[axis]);
-                high[axis] = high[axis].max(end[axis]);
+            for ((low, high), end) in low.iter_mut().zip(&mut high).zip(end) {
+                (*low, *high) = ((*low).min(end), (*high).max(end));
             }
         }
-        let sides = [0, 1].map(|axis| i64::from(high[axis]) - i64::from(low[axis]));
+        let side = |axis: usize| i64::from(high[axis]) - i64::from(low[axis]);
+        let sides = [side(0), side(1)];
         let longest = sides.into_iter().max().unwrap_or(0).max(0) as usize;
         let places = (longest / TILES).checked_ilog2();
         let first = low.map(|least| if least == i32::MAX { 0 } else { least });

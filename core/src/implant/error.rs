@@ -8,6 +8,7 @@ use crate::mesh::MeshError;
 
 /// Why bytes are no implant file, or none can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ImplantError {
     /// The first bytes are not those of an implant file.
     #[error("this is not an implant file: it does not begin with FLUOROIM")]

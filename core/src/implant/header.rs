@@ -38,10 +38,10 @@ impl Header {
     pub(super) fn places(&self) -> Option<Places> {
         let mut places = [HEADER_BYTES; 7];
         let mut at = HEADER_BYTES;
-        for (part, (&count, size)) in self.counts.iter().zip(SIZES).enumerate() {
+        for ((&count, size), end) in self.counts.iter().zip(SIZES).zip(&mut places[1..]) {
             let bytes = usize::try_from(count).ok()?.checked_mul(size)?;
             at = at.checked_add(bytes)?.checked_next_multiple_of(4)?;
-            places[part + 1] = at;
+            *end = at;
         }
         places[6] = at.checked_add(usize::try_from(self.library_bytes).ok()?)?;
         Some(places)

@@ -11,6 +11,7 @@ use crate::render::RenderError;
 
 /// Why bytes are not a library.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum LibraryError {
     /// The first bytes are not those of a library.
     #[error("this is not a library file: it does not begin with FLUOROPL")]

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
-use crate::math::{Vector3, round};
+use crate::math::{Vector3, round, within};
 use crate::mesh::ModelDigest;
 
 /// One axis of the grid of views: `first`, `first + step`, ... degrees.
@@ -64,7 +64,7 @@ impl ViewGrid {
     /// than they need to.
     #[must_use]
     pub fn sphere(step_deg: f64) -> Self {
-        let count = round(180.0 / step_deg.clamp(1.0, 15.0));
+        let count = round(180.0 / within(step_deg, 1.0, 15.0));
         let step = 180.0 / count;
         Self {
             x: ViewAxis {

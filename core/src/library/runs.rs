@@ -140,7 +140,14 @@ impl<'a> Band<'a> {
     /// Each row's number and runs.
     #[inline(always)]
     pub(crate) fn rows(self) -> impl Iterator<Item = (usize, &'a [[u8; 2]])> {
-        (self.first_row..).zip(self.pieces.chunks_exact(self.per_row))
+        // Never none in a row.
+        let (mut rest, per_row) = (self.pieces, self.per_row.max(1));
+        let rows = core::iter::from_fn(move || {
+            let (own, others) = rest.split_at_checked(per_row)?;
+            rest = others;
+            Some(own)
+        });
+        (self.first_row..).zip(rows)
     }
 }
 
@@ -216,10 +223,13 @@ pub(super) fn draw_runs(bytes: &[u8], mask: &mut MaskMut<'_>) {
 /// Number of pixels set in both of two views.
 pub(super) fn overlap(a: &[u8], b: &[u8]) -> u32 {
     let mut sum = 0;
-    let mut ours = bands(a).flat_map(Band::rows).peekable();
+    let mut rows = bands(a).flat_map(Band::rows);
+    let mut ours = rows.next();
     for (row, theirs) in bands(b).flat_map(Band::rows) {
-        while ours.next_if(|&(other, _)| other < row).is_some() {}
-        if let Some((_, ours)) = ours.next_if(|&(other, _)| other == row) {
+        while ours.is_some_and(|(other, _)| other < row) {
+            ours = rows.next();
+        }
+        if let Some((_, ours)) = ours.filter(|&(other, _)| other == row) {
             sum += common(ours, theirs);
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::library::{Library, ViewGrid, ViewRecord};
 use crate::locate::bands::{self, lagrange, window};
-use crate::math::{solve_spd, wrap};
+use crate::math::{solve_spd, within, wrap};
 use crate::search::ViewMatch;
 use crate::search::ViewSearch;
 
@@ -43,8 +43,8 @@ pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch
     });
     let last = |count: usize| count.saturating_sub(1) as f64;
     let place = [
-        fine_x.clamp(0.0, last(grid.x.count)),
-        fine_y.clamp(0.0, last(grid.y.count)),
+        within(fine_x, 0.0, last(grid.x.count)),
+        within(fine_y, 0.0, last(grid.y.count)),
     ];
     let inside = |at: usize, count: usize| count == 1 || (at > 0 && at + 1 < count);
     FineView {

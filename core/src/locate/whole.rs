@@ -18,6 +18,7 @@ use crate::shortlist::first_of;
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum LocateError {
     /// The silhouette has no canonical form.
     #[error(transparent)]

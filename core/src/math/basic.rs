@@ -15,6 +15,7 @@ pub(crate) const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.
 
 /// Square root.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn sqrt(x: f64) -> f64 {
     libm::sqrt(x)
 }
@@ -46,7 +47,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 /// Arc sine in radians; the argument is clamped to -1..1, so rounding cannot make a NaN.
 #[must_use]
 pub(crate) fn asin(x: f64) -> f64 {
-    libm::asin(x.clamp(-1.0, 1.0))
+    libm::asin(within(x, -1.0, 1.0))
 }
 
 /// Largest whole number not above `x`.
@@ -73,6 +74,18 @@ pub fn round(x: f64) -> f64 {
     libm::round(x)
 }
 
+/// The number from `low` to `high` that is nearest; a NaN stays one. The language's own `clamp` can end in a panic that writes numbers.
+#[must_use]
+pub(crate) fn within(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
 /// Degrees to radians.
 #[must_use]
 pub fn radians(degrees: f64) -> f64 {
@@ -93,6 +106,7 @@ pub fn wrap(radians: f64, period: f64) -> f64 {
 
 /// Matrix product `a * b`.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn multiply(a: &Matrix3, b: &Matrix3) -> Matrix3 {
     let mut product = [[0.0; 3]; 3];
     for (row, out) in a.iter().zip(&mut product) {
@@ -105,6 +119,7 @@ pub fn multiply(a: &Matrix3, b: &Matrix3) -> Matrix3 {
 
 /// Matrix times vector.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn apply(m: &Matrix3, v: &Vector3) -> Vector3 {
     [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v)]
 }
@@ -121,18 +136,21 @@ pub fn transpose(m: &Matrix3) -> Matrix3 {
 
 /// Determinant.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn determinant(m: &Matrix3) -> f64 {
     dot(&m[0], &cross(&m[1], &m[2]))
 }
 
 /// Scalar product.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn dot(a: &Vector3, b: &Vector3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Vector product.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -143,30 +161,35 @@ pub fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
 
 /// Sum of two vectors.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn add(a: &Vector3, b: &Vector3) -> Vector3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// Difference of two vectors.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// Vector times number.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn scale(v: &Vector3, factor: f64) -> Vector3 {
     [v[0] * factor, v[1] * factor, v[2] * factor]
 }
 
 /// Euclidean length.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn norm(v: &Vector3) -> f64 {
     sqrt(dot(v, v))
 }
 
 /// The rotation by the length (radians) and about the direction of a vector (Rodrigues).
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn rotation_by(turn: &Vector3) -> Matrix3 {
     let angle = norm(turn);
     if angle == 0.0 {
@@ -185,6 +208,7 @@ pub fn rotation_by(turn: &Vector3) -> Matrix3 {
 /// The vector of a rotation, [`rotation_by`]'s inverse: its length is the angle in radians, up to
 /// pi, where its sign is arbitrary.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn rotation_vector(rotation: &Matrix3) -> Vector3 {
     let twice = [
         rotation[2][1] - rotation[1][2],
@@ -220,6 +244,7 @@ pub(crate) fn rotation_vector(rotation: &Matrix3) -> Vector3 {
 /// Returns `None` where `a` is not positive definite. Golub and Van Loan, *Matrix
 /// Computations*, section 4.2.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64; N]> {
     for column in 0..N {
         for k in 0..column {
@@ -254,6 +279,7 @@ pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Optio
 ///
 /// Returns `None` where `a` is not positive definite.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut columns = [[0.0; N]; N];
     for (k, column) in columns.iter_mut().enumerate() {
@@ -269,6 +295,7 @@ pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
 
 /// Product `a * b` of square matrices of any size.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn multiply_square<const N: usize>(
     a: &[[f64; N]; N],
     b: &[[f64; N]; N],

@@ -7,6 +7,7 @@ use crate::math::Vector3;
 
 /// Why vertices and triangles are not a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MeshError {
     /// There is nothing to draw.
     #[error("the model has no triangles")]
@@ -28,8 +29,15 @@ pub struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
     bounds: Bounds,
-    /// Where it is known.
-    digest: Option<&'a ModelDigest>,
+    digest: Digest<'a>,
+}
+
+/// How a mesh's digest is told. By a pointer to what computes it, so that a program whose meshes all come from files has none of
+/// that: 8 KB of a microcontroller's flash.
+#[derive(Clone, Copy, Debug)]
+enum Digest<'a> {
+    Known(&'a ModelDigest),
+    By(fn(&Mesh<'_>) -> ModelDigest),
 }
 
 /// SHA-256 of a mesh's vertices and triangles as they are stored.
@@ -81,6 +89,22 @@ impl<'a> Mesh<'a> {
     /// # Errors
     /// [`MeshError`] names the first vertex or triangle at fault.
     pub fn new(vertices: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Result<Self, MeshError> {
+        Ok(Self {
+            bounds: Self::check(vertices, triangles)?,
+            vertices,
+            triangles,
+            digest: Digest::By(sha_256),
+        })
+    }
+
+    /// Checks what [`Self::new`] takes.
+    ///
+    /// # Errors
+    /// As that.
+    pub(crate) fn check(
+        vertices: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+    ) -> Result<Bounds, MeshError> {
         if triangles.is_empty() {
             return Err(MeshError::Empty);
         }
@@ -97,12 +121,7 @@ impl<'a> Mesh<'a> {
         if bounds.radius == 0.0 {
             return Err(MeshError::Point);
         }
-        Ok(Self {
-            vertices,
-            triangles,
-            bounds,
-            digest: None,
-        })
+        Ok(bounds)
     }
 
     /// What [`Mesh::new`] has checked before, of the same vertices and triangles.
@@ -116,7 +135,7 @@ impl<'a> Mesh<'a> {
             vertices,
             triangles,
             bounds,
-            digest: None,
+            digest: Digest::By(sha_256),
         }
     }
 
@@ -131,7 +150,7 @@ impl<'a> Mesh<'a> {
             vertices,
             triangles,
             bounds,
-            digest: Some(digest),
+            digest: Digest::Known(digest),
         }
     }
 
@@ -168,19 +187,23 @@ impl<'a> Mesh<'a> {
     /// Digest of the geometry, which a library records to know its model again.
     #[must_use]
     pub fn digest(&self) -> ModelDigest {
-        if let Some(&digest) = self.digest {
-            return digest;
+        match self.digest {
+            Digest::Known(&digest) => digest,
+            Digest::By(compute) => compute(self),
         }
-        let mut hash = Sha256::new();
-        hash.update((self.vertices.len() as u64).to_le_bytes());
-        for x in self.vertices.iter().flatten() {
-            hash.update(x.to_le_bytes());
-        }
-        for index in self.triangles.iter().flatten() {
-            hash.update(index.to_le_bytes());
-        }
-        hash.finalize().into()
     }
+}
+
+fn sha_256(mesh: &Mesh<'_>) -> ModelDigest {
+    let mut hash = Sha256::new();
+    hash.update((mesh.vertices.len() as u64).to_le_bytes());
+    for x in mesh.vertices.iter().flatten() {
+        hash.update(x.to_le_bytes());
+    }
+    for index in mesh.triangles.iter().flatten() {
+        hash.update(index.to_le_bytes());
+    }
+    hash.finalize().into()
 }
 
 #[cfg(test)]

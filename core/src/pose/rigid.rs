@@ -7,6 +7,7 @@ use crate::math::{
 
 /// `X_camera = rotation * X_model + translation`; mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pose {
     /// `camera_from_model`: a rotation matrix, row by row.
     pub rotation: Matrix3,
@@ -16,6 +17,7 @@ pub struct Pose {
 
 /// A pose as the field writes it (`JT_EULER_312`): `R = Rz(z_rot) * Rx(x_rot) * Ry(y_rot)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EulerPose {
     /// Translation to the right, mm.
     pub x_mm: f64,

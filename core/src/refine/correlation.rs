@@ -73,16 +73,17 @@ struct Pulls<'b> {
     border: &'b [BorderPixel],
     loss: Loss,
     /// Of the last samples before [`Self::known`], by the remainder of their number.
-    last: [f32; KEPT],
+    last: &'b mut [f32; KEPT],
     known: usize,
 }
 
 impl<'b> Pulls<'b> {
-    fn new(border: &'b [BorderPixel], loss: Loss) -> Self {
+    /// In a kilobyte of any value that is not moved.
+    fn new(border: &'b [BorderPixel], loss: Loss, last: &'b mut [f32; KEPT]) -> Self {
         Self {
             border,
             loss,
-            last: [0.0; KEPT],
+            last,
             known: 0,
         }
     }
@@ -154,7 +155,8 @@ impl Correlation {
     #[inline(never)]
     fn raw(border: &[BorderPixel], loss: Loss) -> ([f32; BINS + 1], f32) {
         let (mut sums, mut weights) = ([0.0f64; BINS + 1], [0.0f64; BINS + 1]);
-        let mut pulls = Pulls::new(border, loss);
+        let mut last = [0.0; KEPT];
+        let mut pulls = Pulls::new(border, loss, &mut last);
         for (few, samples) in border.chunks(BLOCK).enumerate() {
             let (mut some, mut lengths) = ([0.0f32; BINS + 1], [0.0f32; BINS + 1]);
             for (place, sample) in samples.iter().enumerate() {
@@ -246,7 +248,8 @@ mod tests {
             };
             let border: Vec<BorderPixel> = residuals.iter().map(sample).collect();
             let loss = Loss::Cauchy(1.5);
-            let mut pulls = Pulls::new(&border, loss);
+            let mut last = [0.5; KEPT];
+            let mut pulls = Pulls::new(&border, loss, &mut last);
             for least in (0..residuals.len()).step_by(every) {
                 let near = residuals.iter().enumerate().skip(least).take(reach);
                 for (number, residual) in near {

@@ -47,11 +47,14 @@ struct Block {
 impl Block {
     fn add(&mut self, sample: &BorderPixel, motion: &Motion, moved: [f32; CONSTANTS + 1]) {
         let jacobian = motion.jacobian(sample);
-        for (row, a) in jacobian.map(|a| sample.weight * a).into_iter().enumerate() {
-            for (pull, moved) in self.pulls.iter_mut().zip(moved) {
-                pull[row] += a * moved;
+        for (pull, moved) in self.pulls.iter_mut().zip(moved) {
+            for (sum, a) in pull.iter_mut().zip(&jacobian) {
+                *sum += sample.weight * a * moved;
             }
-            for (sum, &b) in self.information[row].iter_mut().zip(&jacobian) {
+        }
+        for (row, a) in self.information.iter_mut().zip(&jacobian) {
+            let a = sample.weight * a;
+            for (sum, &b) in row.iter_mut().zip(&jacobian) {
                 *sum += a * b;
             }
         }
@@ -166,12 +169,16 @@ impl EdgeBias {
             return covariance;
         };
         let mut matrix = covariance.matrix;
+        let of = |shift: &[f64; 6], number: usize| shift.get(number).copied().unwrap_or_default();
+        let (constants, [common]) = shifts.split_at(CONSTANTS) else {
+            return covariance;
+        };
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
-                *value += shifts[CONSTANTS][row] * shifts[CONSTANTS][column];
-                for (a, one) in shifts.iter().take(CONSTANTS).enumerate() {
-                    for (b, other) in shifts.iter().take(CONSTANTS).enumerate() {
-                        *value += self.correlation[a][b] * one[row] * other[column];
+                *value += of(common, row) * of(common, column);
+                for (one, correlated) in constants.iter().zip(&self.correlation) {
+                    for (other, correlation) in constants.iter().zip(correlated) {
+                        *value += correlation * of(one, row) * of(other, column);
                     }
                 }
             }

@@ -8,6 +8,7 @@ use crate::render::RenderError;
 
 /// Why a pose cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RefineError {
     /// At this pose the model reaches beyond the part of the frame that is looked at.
     #[error(

@@ -3,7 +3,7 @@
 use super::border::{BorderPixel, NormalReading, Residual};
 use super::drawn::DrawnEdges;
 use super::edge;
-use super::probe::{self, OWN_RANGE};
+use super::probe::{self, OWN_STEPS};
 use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
 use crate::image::display::QuickCurve;
@@ -33,9 +33,11 @@ impl Eye<'_> {
     fn measure_against(&self, silhouette: &Silhouette<'_>, border: &mut [BorderPixel]) {
         let drawn = (&self.drawn).into();
         let offset = self.offset as f32;
+        let steps = probe::steps_within(self.stage.range);
         for sample in border.iter_mut().filter(|sample| sample.is_on_surface()) {
-            if let Residual::Px(own) = probe::crossing(&drawn, sample, OWN_RANGE) {
-                let found = probe::crossing(silhouette, sample, self.stage.range);
+            let normal = sample.normal();
+            if let Residual::Px(own) = probe::crossing_along(&drawn, sample, normal, OWN_STEPS) {
+                let found = probe::crossing_along(silhouette, sample, normal, steps);
                 sample.set_residual(found.beyond(own + offset));
             }
         }
@@ -56,7 +58,7 @@ impl Eye<'_> {
             if !sample.is_on_surface() {
                 continue;
             }
-            let Residual::Px(own) = probe::crossing(&drawn, sample, OWN_RANGE) else {
+            let Residual::Px(own) = probe::crossing(&drawn, sample, OWN_STEPS) else {
                 continue;
             };
             let NormalReading::At(own) = self.edges.at(number, f64::from(own)) else {

@@ -40,7 +40,8 @@ impl<'j, F: Fn(&BorderPixel) -> [f32; PARAMETERS]> Jacobians<'j, F> {
         };
         let pair = |place: Projected| {
             let bits = u64::from(place);
-            [bits as u32, (bits >> 32) as u32].map(f32::from_bits)
+            let (low, high) = (bits as u32, (bits >> 32) as u32);
+            [f32::from_bits(low), f32::from_bits(high)]
         };
         let ([a, b], [c, d], [e, f]) = (pair(a), pair(b), pair(c));
         [a, b, c, d, e, f]

@@ -39,7 +39,10 @@ impl Motion {
         Self {
             focal: camera.focal().map(|x| x as f32),
             principal: pixel.map(|x| x as i32),
-            beside: [0, 1].map(|k| (principal[k] - pixel[k] - 0.5) as f32),
+            beside: [
+                (principal[0] - pixel[0] - 0.5) as f32,
+                (principal[1] - pixel[1] - 0.5) as f32,
+            ],
             centre: centre.map(|x| x as f32),
             back: None,
         }

@@ -135,17 +135,23 @@ impl DrawnModel<'_> {
 fn border_columns<'m>(mask: &Mask<'m>, row: usize) -> impl Iterator<Item = usize> + use<'m> {
     let (own, above, below) = (mask.row(row), mask.row(row - 1), mask.row(row + 1));
     let word = |words: &[Word], at: usize| words.get(at).copied().unwrap_or(0);
-    let set = own.iter().enumerate().filter(|&(_, &middle)| middle != 0);
-    set.flat_map(move |(at, &middle)| {
-        let before = at.checked_sub(1).map_or(0, |at| word(own, at));
-        let left = middle << 1 | before >> (WORD_BITS - 1);
-        let right = middle >> 1 | word(own, at + 1) << (WORD_BITS - 1);
-        let mut bits = middle & !(left & right & word(above, at) & word(below, at));
-        core::iter::from_fn(move || {
-            let bit = bits.trailing_zeros() as usize;
-            bits &= bits.wrapping_sub(1);
-            (bit < WORD_BITS).then_some(at * WORD_BITS + bit)
-        })
+    // Pixels of the border that are left in the present word, which is the one before the next.
+    let (mut next, mut bits) = (0, 0);
+    core::iter::from_fn(move || {
+        while bits == 0 {
+            let (at, &middle) = (next, own.get(next)?);
+            next += 1;
+            if middle == 0 {
+                continue;
+            }
+            let before = at.checked_sub(1).map_or(0, |at| word(own, at));
+            let left = middle << 1 | before >> (WORD_BITS - 1);
+            let right = middle >> 1 | word(own, at + 1) << (WORD_BITS - 1);
+            bits = middle & !(left & right & word(above, at) & word(below, at));
+        }
+        let bit = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        Some((next - 1) * WORD_BITS + bit)
     })
 }
 
@@ -185,7 +191,8 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
     });
     let mut slope = [0i32; 2];
     for ((down, &bits), tent) in window.iter().enumerate().zip(TENT) {
-        let [sum, right] = ROWS[bits as usize].map(i32::from);
+        let [sum, right] = ROWS.get(bits as usize).copied().unwrap_or_default();
+        let (sum, right) = (i32::from(sum), i32::from(right));
         slope[0] -= tent * right;
         slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
     }
@@ -194,12 +201,17 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         return None;
     }
     // As far as sides face outside, times the length of the slope: whole numbers.
-    let is_set = |right: usize, down: usize| window[down] >> right & 1 == 1;
+    let is_set = |right: usize, down: usize| {
+        let row = window.get(down);
+        row.is_some_and(|bits| bits >> right & 1 == 1)
+    };
     let sides = [(4, 3, right), (2, 3, -right), (3, 4, down), (3, 2, -down)];
-    let outside = sides
-        .into_iter()
-        .filter(|&(right, down, _)| !is_set(right, down));
-    let facing: i32 = outside.map(|(_, _, along)| along.max(0)).sum();
+    let mut facing = 0;
+    for &(right, down, along) in &sides {
+        if along > 0 && !is_set(right, down) {
+            facing += along;
+        }
+    }
     let length = sqrt_single((right * right + down * down) as f32);
     Some(BorderPixel {
         column: column as u16,

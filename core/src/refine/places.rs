@@ -54,7 +54,7 @@ impl<'p> Places<'p> {
         let own = samples.get_mut(usize::from(first)..usize::from(end));
         let own = own.unwrap_or_default();
         let first = own.partition_point(|sample| usize::from(sample.column) < columns.start);
-        for sample in own.iter_mut().skip(first) {
+        for sample in own.get_mut(first..).unwrap_or_default() {
             if usize::from(sample.column) >= columns.end {
                 return;
             }

@@ -22,19 +22,38 @@ const ONE: u32 = 1 << SHARE;
 const WHOLE: i32 = 1 << (2 * SHARE);
 const HALF: i32 = WHOLE / 2;
 
-/// Where the outline of `silhouette` crosses the normal of a sample, within `range` pixels: its distance from the middle of the
+/// Readings to one side of a sample, as many as a distance of so many pixels takes: told once for many samples.
+pub(super) const fn steps_within(range: f64) -> i32 {
+    let steps = (range / STEP as f64) as i32;
+    if steps < MOST_STEPS {
+        steps
+    } else {
+        MOST_STEPS
+    }
+}
+
+/// Where the outline of `silhouette` crosses the normal of a sample, within so many steps ([`steps_within`]): its distance from the middle of the
 /// sample's pixel along the outward normal. [`Residual::Missing`] where it does not.
 ///
 /// The mask is read by bilinear interpolation between pixel centres; the outline is where it is
 /// one half. From inside the first crossing outwards is taken, from outside the first inwards.
-pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range: f64) -> Residual {
+pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, steps: i32) -> Residual {
+    crossing_along(silhouette, sample, sample.normal(), steps)
+}
+
+/// The same along the normal of the sample where that is known already.
+pub(super) fn crossing_along(
+    silhouette: &Silhouette<'_>,
+    sample: &BorderPixel,
+    normal: [f32; 2],
+    steps: i32,
+) -> Residual {
     let Some(inside) = at_centre(silhouette, sample) else {
         return Residual::Unknown;
     };
     let direction = if inside { 1 } else { -1 };
-    let walk = Walk::of(silhouette, sample, direction);
+    let walk = Walk::of(silhouette, sample, normal, direction);
     let mut value = if inside { WHOLE } else { 0 };
-    let steps = ((range / f64::from(STEP)) as i32).min(MOST_STEPS);
     for step in 1..=steps {
         let Some(next) = walk.coverage(step) else {
             return Residual::Unknown;
@@ -71,7 +90,12 @@ struct Walk<'w, 's> {
 }
 
 impl<'w, 's> Walk<'w, 's> {
-    fn of(silhouette: &'w Silhouette<'s>, sample: &BorderPixel, direction: i32) -> Self {
+    fn of(
+        silhouette: &'w Silhouette<'s>,
+        sample: &BorderPixel,
+        normal: [f32; 2],
+        direction: i32,
+    ) -> Self {
         let scale = direction as f32 * STEP * (1u32 << PLACES) as f32;
         let last = |side: usize| side.saturating_sub(1) as u32;
         let mask = silhouette.mask();
@@ -80,7 +104,7 @@ impl<'w, 's> Walk<'w, 's> {
             column: i32::from(sample.column),
             row: i32::from(sample.row),
             // Exact but for what is cut off: 24 bits times a power of two.
-            step: sample.normal().map(|x| (x * scale) as i32),
+            step: normal.map(|x| (x * scale) as i32),
             columns: last(mask.width()),
             rows: last(mask.height()),
         }
@@ -129,7 +153,9 @@ fn between(square: u32, right: u32, down: u32) -> i32 {
 }
 
 /// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
-pub(super) const OWN_RANGE: f64 = 3.0;
+const OWN_RANGE: f64 = 3.0;
+/// The same in steps.
+pub(super) const OWN_STEPS: i32 = steps_within(OWN_RANGE);
 
 #[cfg(test)]
 mod tests {
@@ -212,7 +238,7 @@ mod tests {
             let (wanted, nearest) = naive(&mask, &sample, range);
             // Of what is as near as rounding nobody can tell which way it falls.
             prop_assume!(nearest > 1e-3);
-            match (crossing(&(&mask).into(), &sample, range), wanted) {
+            match (crossing(&(&mask).into(), &sample, steps_within(range)), wanted) {
                 (Residual::Px(a), Residual::Px(b)) => prop_assert!((a - b).abs() < 1e-3, "{a} for {b}"),
                 (found, wanted) => prop_assert_eq!(found, wanted),
             }
@@ -231,7 +257,7 @@ mod tests {
                 ..BorderPixel::EMPTY
             };
             assert_eq!(
-                crossing(&(&mask).into(), &sample, 20.0),
+                crossing(&(&mask).into(), &sample, steps_within(20.0)),
                 Residual::Px(wanted)
             );
         }

@@ -18,7 +18,7 @@ use super::stages::{POLISHING, Pass, STAGES, Stage};
 use super::step::Step;
 use super::view::{CameraView, Target};
 use crate::image::mask::MaskError;
-use crate::math::Vector3;
+use crate::math::{Vector3, within};
 use crate::mesh::Model;
 use crate::pace::Pace;
 use crate::pose::{EulerPose, Pose};
@@ -339,7 +339,7 @@ impl<'a> Problem<'a> {
     /// less certain.
     fn coarseness(&self, state: &Refined) -> f64 {
         match self.is_outline() {
-            true => (state.robust_sigma_px / NOISE_PX).clamp(1.0, COARSEST),
+            true => within(state.robust_sigma_px / NOISE_PX, 1.0, COARSEST),
             false => self.grain(),
         }
     }

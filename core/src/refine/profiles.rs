@@ -6,7 +6,7 @@ use super::edge::{TANGENT, is_known};
 use super::error::RefineError;
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
 use super::outline::Sampling;
-use super::probe::{self, OWN_RANGE};
+use super::probe::{self, OWN_STEPS};
 use super::view::{ImageTarget, Polarity};
 use crate::camera::Camera;
 use crate::film::lines::measure;
@@ -49,7 +49,7 @@ pub fn film_profiles(
     let every = border.len().div_ceil(profiles.len().max(1)).max(1);
     let mut count = 0;
     for (line, sample) in lines.iter().zip(border).step_by(every) {
-        let crossing = probe::crossing(&(&drawn).into(), sample, OWN_RANGE);
+        let crossing = probe::crossing(&(&drawn).into(), sample, OWN_STEPS);
         let (Residual::Px(own), Some(paths)) = (crossing, line.paths()) else {
             continue;
         };

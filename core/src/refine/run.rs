@@ -148,7 +148,7 @@ async fn go_on(
             problem.run(&pass, state, seen, memory, trace).await?;
         }
     }
-    if !drawn {
+    if !problem.has_film() {
         problem.polish(&pass, state, seen, memory, trace).await?;
     } else if options.effort != Effort::Probe {
         problem.correct(&pass, state, memory, trace)?;

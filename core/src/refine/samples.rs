@@ -6,7 +6,7 @@ use super::error::RefineError;
 use super::memory::{RefineMemory, check_memory};
 use super::motion::Motion;
 use super::outline::Sampling;
-use super::probe::{self, OWN_RANGE};
+use super::probe::{self, OWN_STEPS};
 use crate::camera::Camera;
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -43,7 +43,7 @@ pub fn outline_samples(
     let Drawing { drawn, border, .. } = draw(model, camera, pose, Sampling::ALL, memory)?;
     let motion = Motion::in_camera(camera, &pose.transform(&model.bounds().centre));
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
-        let Residual::Px(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
+        let Residual::Px(own) = probe::crossing(&(&drawn).into(), sample, OWN_STEPS) else {
             continue;
         };
         let (own, normal) = (f64::from(own), sample.normal().map(f64::from));

@@ -3,6 +3,7 @@
 use super::loss::Loss;
 use super::memory::FILM_EVERY;
 use super::view::Target;
+use crate::math::within;
 
 /// Number of stages of any target.
 pub(super) const STAGES: usize = 4;
@@ -53,7 +54,7 @@ impl Stage {
             (Target::Silhouette(_), 1) => stage(16.0, Loss::Cauchy(2.5)),
             (Target::Silhouette(_), 2) => stage(10.0, Loss::Cauchy(1.0)),
             (Target::Silhouette(_), _) => {
-                let scale = (EFFICIENT * sigma_px).clamp(SCALE[0], SCALE[1]);
+                let scale = within(EFFICIENT * sigma_px, SCALE[0], SCALE[1]);
                 stage(10.0, Loss::Cauchy(scale as f32))
             }
             (Target::Image(_), 0) => stage(10.0, Loss::Tukey(8.0)),

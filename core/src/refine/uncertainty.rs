@@ -76,7 +76,9 @@ pub fn assess(
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Assessment, RefineError> {
-    let (mut sums, mut bias) = (Sums::default(), EdgeBias::default());
+    // One by one: of both at once there would be copies on the stack.
+    let mut sums = Sums::default();
+    let mut bias = EdgeBias::default();
     let fit = observe(model, views, refined, memory, |seen| {
         let motion = &seen.motion;
         let jacobian = |sample: &BorderPixel| motion.jacobian(sample);
@@ -167,6 +169,24 @@ pub fn uncertainty(
     Ok(assess(model, views, refined, memory)?.covariance)
 }
 
+/// Adds a symmetric matrix of which the lower triangle alone was summed.
+fn add_lower(to: &mut Matrix6, more: &[[f32; 6]; 6]) {
+    let mut add = |row: usize, column: usize, sum: f32| {
+        let entry = to.get_mut(row).and_then(|row| row.get_mut(column));
+        if let Some(entry) = entry {
+            *entry += f64::from(sum);
+        }
+    };
+    for (row, sums) in more.iter().enumerate() {
+        for (column, &sum) in sums.iter().enumerate().take(row + 1) {
+            add(row, column, sum);
+            if column < row {
+                add(column, row, sum);
+            }
+        }
+    }
+}
+
 /// Sums over the samples of all views.
 #[derive(Default)]
 struct Sums {
@@ -222,16 +242,9 @@ impl Sums {
     fn add_block(&mut self, block: &Block) {
         self.curvature += f64::from(block.curvature);
         self.length += f64::from(block.length);
-        for row in 0..6 {
-            for column in 0..6 {
-                // Lower triangles alone were summed.
-                let (row_of, column_of) = (row.max(column), row.min(column));
-                let sum = |matrix: &[[f32; 6]; 6]| f64::from(matrix[row_of][column_of]);
-                self.spread[row][column] += sum(&block.spread);
-                self.information[row][column] += sum(&block.information);
-                self.holding[row][column] += sum(&block.holding);
-            }
-        }
+        add_lower(&mut self.spread, &block.spread);
+        add_lower(&mut self.information, &block.information);
+        add_lower(&mut self.holding, &block.holding);
     }
 
     /// `H`, with as much of what it were with the mean of `psi'` everywhere as it needs: where residuals are large `psi'` is
@@ -282,13 +295,17 @@ impl Block {
     fn add(&mut self, length: f32, curvature: f32, own: &[f32; 6], sum: &[f32; 6]) {
         self.length += length;
         self.curvature += length * curvature;
-        for row in 0..6 {
-            let (own_row, sum_row) = (length * own[row], length * sum[row]);
+        let rows = self.spread.iter_mut().zip(&mut self.information);
+        let rows = rows.zip(&mut self.holding).zip(own.iter().zip(sum));
+        for (row, (((spread, information), holding), (&own_of, &sum_of))) in rows.enumerate() {
+            let (own_row, sum_row) = (length * own_of, length * sum_of);
             let held = curvature * own_row;
-            for column in 0..=row {
-                self.spread[row][column] += own_row * sum[column] + sum_row * own[column];
-                self.information[row][column] += own_row * own[column];
-                self.holding[row][column] += held * own[column];
+            let columns = spread.iter_mut().zip(information).zip(holding);
+            let columns = columns.zip(own.iter().zip(sum)).take(row + 1);
+            for (((spread, information), holding), (&own, &sum)) in columns {
+                *spread += own_row * sum + sum_row * own;
+                *information += own_row * own;
+                *holding += held * own;
             }
         }
     }

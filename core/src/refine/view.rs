@@ -122,7 +122,15 @@ pub struct ImageTarget<'a> {
     /// What the film makes of the implant, where its constants are known: edges are then where physics puts them, and depth
     /// has no bias. Without it they are taken to be on the outline, and the uncertainty is as wide as that is wrong.
     pub film: Option<FilmModel>,
+    /// There is none.
+    #[cfg(not(feature = "frames"))]
+    pub none: NoFrame,
 }
+
+/// What no value is of: without the feature `frames` nothing can be a frame's, and the compiler leaves out what is done with one.
+#[cfg(not(feature = "frames"))]
+#[derive(Clone, Copy, Debug)]
+pub struct NoFrame(core::convert::Infallible);
 
 impl ImageTarget<'_> {
     /// The curve that shows the frame as it is displayed, metal dark.

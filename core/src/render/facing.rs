@@ -134,13 +134,16 @@ impl FacingTest {
         }
         for edge in group {
             let edge = unpacked(edge);
-            let places = [edge.from, edge.to, edge.forth, edge.back].map(|v| images.vertex(v));
-            let [Some(from), Some(to), Some(forth), Some(back)] = places else {
+            let (Some(from), Some(to), Some(forth), Some(back)) = (
+                images.vertex(edge.from),
+                images.vertex(edge.to),
+                images.vertex(edge.forth),
+                images.vertex(edge.back),
+            ) else {
                 continue;
             };
-            let faces = |corners| measure(&self.place, self.margins, corners);
-            let sides = faces([from, to, forth]).zip(faces([to, from, back]));
-            let sides = sides.map_or_else(|| Self::faces(&edge, images), |(a, b)| [a, b]);
+            let sides = measure(&self.place, self.margins, [from, to, forth, back]);
+            let sides = sides.unwrap_or_else(|| Self::faces(&edge, images));
             match sides {
                 [true, false] => visit([edge.from, edge.to]),
                 [false, true] => visit([edge.to, edge.from]),

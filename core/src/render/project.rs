@@ -12,6 +12,7 @@ use crate::pose::Pose;
 
 /// Why a model cannot be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RenderError {
     /// A vertex is on or behind the focus, or so near it that its image has no bounds.
     #[error(

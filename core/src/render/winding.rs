@@ -256,8 +256,8 @@ impl Band {
             let [from, to] = ends_of;
             let leaves = if to.is_above(from) { 0 } else { LEAVES };
             let edge = Edge::new(ends_of);
-            for row in rows {
-                let column = edge.column_at(row).clamp(0, width) as u64;
+            for (row, column) in edge.columns(rows) {
+                let column = column.clamp(0, width) as u64;
                 let Some(end) = ends.get_mut(row - self.rows.start) else {
                     continue;
                 };

@@ -275,7 +275,7 @@ fn sketch<'m>(spec: &CanonicalSpec, words: &[Word], out: &'m mut [u8]) -> [&'m [
 /// Set pixels of two blocks beside each other: of the words of a row of blocks, one column.
 #[inline(always)]
 fn counts_of_two(words: &[Word], column: usize, row_words: usize) -> [u16; 2] {
-    let column = words.iter().skip(column).step_by(row_words);
+    let column = words.iter().skip(column).step_by(row_words.max(1));
     let halves: Word = column.map(|&word| ones_of_halves(word)).sum();
     [halves as u16, (halves >> 16) as u16]
 }

@@ -9,6 +9,7 @@ use crate::shortlist::smallest;
 
 /// Why nothing was matched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MatchError {
     /// Working memory is too short.
     #[error(transparent)]

@@ -49,7 +49,8 @@ fn report_memory(board: &mut impl Board) -> fmt::Result {
     let [first, second] = DATA;
     let bytes = [
         ("working memory", size_of::<Memory>()),
-        ("code and constants in flash", stack::code() - data),
+        ("code", stack::code()),
+        ("tables and sentences", stack::constants() - data),
         first,
         second,
         ("all statics", stack::statics()),

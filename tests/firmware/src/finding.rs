@@ -9,6 +9,7 @@ use fluoropose::image::contour::{Outline, OutlineError, Point};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::MaskError;
 use fluoropose::implant::{Aligned, ImplantError, ImplantFile};
+use fluoropose::math::Decimal;
 use fluoropose::pose::EulerPose;
 use fluoropose::{Camera, RefineOptions, Silhouette};
 
@@ -120,7 +121,7 @@ pub fn find_pose(
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), FindingFailure> {
-    ImplantFile::open(&IMPLANT.0).map_err(FindingFailure::Implant)?;
+    check()?;
     stage("implant opened, checked");
     let implant = ImplantFile::trusted(&IMPLANT.0).map_err(FindingFailure::Implant)?;
     stage("implant opened, trusted");
@@ -153,6 +154,14 @@ pub fn find_pose(
     report(out, &crop, found, &decision)
 }
 
+/// Checks every byte of the implant. By itself, because of what it leaves on the stack nothing is needed.
+#[inline(never)]
+fn check() -> Result<(), FindingFailure> {
+    let checked = ImplantFile::open(&IMPLANT.0).map_err(FindingFailure::Implant);
+    checked.map(drop)
+}
+
+#[inline(never)]
 fn report(
     out: &mut dyn Write,
     crop: &Crop,
@@ -181,7 +190,12 @@ fn report(
         ("y_rot deg", euler.y_rot_deg),
     ];
     for (name, value) in numbers {
-        writeln!(out, "  {name}: {value:.6} ({:016x})", value.to_bits())?;
+        writeln!(
+            out,
+            "  {name}: {} ({:016x})",
+            Decimal::new(value, 6),
+            value.to_bits()
+        )?;
     }
     let drawings = best.refined.map_or(0, |refined| refined.renders);
     writeln!(out, "{drawings} drawings led to it")?;

@@ -6,6 +6,7 @@ use fluoropose::image::contour::{Contour, Outline, OutlineError, Point};
 use fluoropose::image::mask::{MaskError, MaskMut};
 use fluoropose::library::{Library, LibraryError};
 use fluoropose::locate::{LocateError, Located, LocatedPoses, Workspace, locate};
+use fluoropose::math::Decimal;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::search::kernels::Kernels;
 
@@ -72,11 +73,12 @@ pub fn prove(
     let library = Library::open(library).map_err(Failure::Library)?;
     stage("library opened and checked");
     let info = library.info();
+    let [a, b, c, d, ..] = info.model;
     writeln!(
         out,
-        "library: {} views, model {:02x?}",
+        "library: {} views, model {:08x}",
         library.views(),
-        &info.model[..4]
+        u32::from_be_bytes([a, b, c, d])
     )?;
 
     read_outline(outline, &mut memory.points)?;
@@ -168,7 +170,8 @@ fn report_pose(out: &mut dyn Write, pose: &Pose) -> Result<(), Failure> {
 fn number(out: &mut dyn Write, name: &str, value: f64) -> Result<(), Failure> {
     Ok(writeln!(
         out,
-        "{name}: {value:.6} ({:016x})",
+        "{name}: {} ({:016x})",
+        Decimal::new(value, 6),
         value.to_bits()
     )?)
 }

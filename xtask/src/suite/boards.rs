@@ -6,12 +6,13 @@ use std::process::Command;
 use anyhow::Result;
 
 use super::board_rows::{self, Row};
+use super::calls;
 use super::firmware::{self, FINDER, LIBRARY, Program, SMALL_FINDER};
 use super::native;
 use super::report::{Report, Said};
 use crate::output::say;
 use crate::setup::rust_target::{self, Toolchain};
-use crate::setup::{Missing, command, programs};
+use crate::setup::{Missing, command, components, programs};
 use crate::workspace;
 
 /// Runs the suite, after the firmware's own.
@@ -25,6 +26,7 @@ pub(crate) fn run(report: &mut Report) {
         report.step(&name, || compare(board, program, &mut rows));
     }
     report.step("firmware: the example in C", || example_in_c(&mut rows));
+    report.step("firmware: linted with defmt", with_defmt);
     report.step("firmware: figures of other boards", || {
         board_rows::add_json(&rows, &firmware::figures()).map(Said::from)
     });
@@ -100,8 +102,21 @@ fn example_in_c(rows: &mut Vec<Row>) -> Result<Said> {
     let (gcc, qemu) = (programs::arm_gcc()?, programs::qemu_arm()?);
     let library = static_library(&toolchain)?;
     let image = linked(&gcc, &library)?;
-    let lines = firmware::on_board(&qemu, firmware::M4F, &image)?;
+    let mut lines = firmware::on_board(&qemu, firmware::M4F, &image)?;
+    let code = calls::code_bytes(&std::fs::read(&image)?)?;
+    lines.push_str(&format!("info: code: {code} bytes\n"));
     agree("Cortex-M4F", "C", &FINDER, &lines, &toolchain, rows)
+}
+
+/// Results and errors as `defmt` writes them compile for a board; a program of its own would need a logger.
+fn with_defmt() -> Result<Said> {
+    let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
+    let mut cargo = toolchain.cargo("build", &firmware::folder());
+    cargo.args(["-p", "fluoropose-embedded", "--features", "defmt"]);
+    if let Toolchain::Own { .. } = toolchain {
+        components::lint(&mut cargo)?;
+    }
+    command::run(cargo.args(["--profile", "embedded"])).map(Said::from)
 }
 
 fn static_library(toolchain: &Toolchain) -> Result<PathBuf> {

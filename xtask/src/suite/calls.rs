@@ -9,6 +9,8 @@ pub(crate) struct Calls {
     pub panics: usize,
     /// To arithmetic of 64-bit floating point, which a Cortex-M4F does in software.
     pub doubles: usize,
+    /// Bytes of the language's functions that write numbers and words: what the core needs of no program that shows neither.
+    pub writing: usize,
 }
 
 /// Counts the calls in a 32-bit little-endian ELF file of Thumb code, whose names were not stripped.
@@ -24,7 +26,10 @@ pub(crate) fn count(elf: &[u8]) -> Result<Calls> {
         .map(|((text, symbols), strings)| (text, symbols, strings))
         .context("the image has no code, or its names were stripped")?;
     let names = Names::of(symbols.bytes, strings.bytes);
-    let mut calls = Calls::default();
+    let mut calls = Calls {
+        writing: names.writing,
+        ..Calls::default()
+    };
     let halves = text.bytes.as_chunks().0.iter();
     let halves: Vec<u16> = halves.map(|&two| u16::from_le_bytes(two)).collect();
     for (at, pair) in halves.windows(2).enumerate() {
@@ -38,11 +43,21 @@ pub(crate) fn count(elf: &[u8]) -> Result<Calls> {
     Ok(calls)
 }
 
+/// Bytes of code in such a file.
+///
+/// Errors where it is none.
+pub(crate) fn code_bytes(elf: &[u8]) -> Result<usize> {
+    let sections = sections(elf).context("this is no 32-bit ELF file with sections")?;
+    let text = sections.iter().find(|section| section.name == ".text");
+    Ok(text.context("the image has no code")?.bytes.len())
+}
+
 /// Addresses that names tell of.
 #[derive(Default)]
 struct Names {
     panics: Vec<u32>,
     doubles: Vec<u32>,
+    writing: usize,
     /// Where each function begins, rising, and whether it is one of the core's.
     functions: Vec<(u32, bool)>,
 }
@@ -51,9 +66,10 @@ impl Names {
     fn of(symbols: &[u8], strings: &[u8]) -> Self {
         let mut names = Self::default();
         for symbol in symbols.as_chunks::<16>().0 {
-            let [word, address, ..] = symbol.as_chunks::<4>().0 else {
+            let [word, address, size, ..] = symbol.as_chunks::<4>().0 else {
                 continue;
             };
+            let size = u32::from_le_bytes(*size) as usize;
             let name = strings.get(u32::from_le_bytes(*word) as usize..);
             let name = name.unwrap_or_default().split(|&byte| byte == 0).next();
             let name = String::from_utf8_lossy(name.unwrap_or_default());
@@ -61,6 +77,7 @@ impl Names {
             let address = u32::from_le_bytes(*address) & !1;
             if symbol[12] & 0xf == FUNCTION {
                 names.functions.push((address, is_core(&name)));
+                names.writing += if is_writing(&name) { size } else { 0 };
             }
             if is_panic(&name) {
                 names.panics.push(address);
@@ -89,6 +106,11 @@ const FUNCTION: u8 = 2;
 /// Whether a mangled name is one of the core's.
 fn is_core(name: &str) -> bool {
     name.contains("fluoropose") && !name.contains("fluoropose_firmware")
+}
+
+/// Whether a mangled name is of a function that writes.
+fn is_writing(name: &str) -> bool {
+    !is_core(name) && (name.contains("core3fmt") || name.contains("core..fmt"))
 }
 
 fn is_panic(name: &str) -> bool {
@@ -188,8 +210,11 @@ mod tests {
         assert!(is_panic("_ZN4core9panicking18panic_bounds_check17h0E"));
         assert!(!is_panic("_ZN10fluoropose4find17h0E") && is_core("_ZN10fluoropose4find17h0E"));
         assert!(!is_core("_ZN4core9panicking18panic_bounds_check17h0E"));
+        assert!(
+            is_writing("_ZN4core3fmt9Formatter3pad17h0E") && !is_writing("_ZN4core5slice17h0E")
+        );
         assert!(is_double("__aeabi_dmul") && is_double("__aeabi_f2d"));
         assert!(!is_double("__aeabi_fmul") && !is_double("__aeabi_memcpy"));
-        assert!(count(b"not an ELF file").is_err());
+        assert!(count(b"not an ELF file").is_err() && code_bytes(b"not an ELF file").is_err());
     }
 }

@@ -148,6 +148,10 @@ fn compare(program: &Program, rows: &mut Vec<Row>) -> Result<Said> {
             "info: calls of 64-bit floating point: {} calls",
             calls.doubles
         ),
+        format!(
+            "info: of the code, the language's writing of words and numbers: {} bytes",
+            calls.writing
+        ),
     ];
     let information = board.lines().filter(|line| is_information(line));
     let mut found = Vec::new();

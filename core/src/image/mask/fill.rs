@@ -172,8 +172,8 @@ impl<'a> MaskMut<'a> {
 
     pub(crate) fn toggle_edge(&mut self, ends: [FixedPoint; 2]) {
         let edge = Edge::new(ends);
-        for row in rows_between(ends, self.height) {
-            self.toggle(edge.column_at(row).max(0) as usize, row);
+        for (row, column) in edge.columns(rows_between(ends, self.height)) {
+            self.toggle(column.max(0) as usize, row);
         }
     }
 

@@ -3,11 +3,13 @@
 use thiserror::Error;
 
 use crate::image::mask::MaskError;
+use crate::math::Decimal;
 use crate::memory::TooLittleMemory;
 use crate::render::RenderError;
 
 /// Why no pose was found from a part of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum PartialError {
     /// No side of the mask has two known pixels, in pieces long enough to use.
     #[error(
@@ -19,7 +21,7 @@ pub enum PartialError {
     },
     /// Too little is known.
     #[error(
-        "{known:.0} pixels of the outline are known, but a first pose needs {needed:.0}; trace more of it"
+        "{} pixels of the outline are known, but a first pose needs {}; trace more of it", Decimal::new(*known, 0), Decimal::new(*needed, 0)
     )]
     TooShort {
         /// Length known, pixel widths.
@@ -37,6 +39,11 @@ pub enum PartialError {
         "no view of the library fits the known part of the outline; is it the right model, side and nominal view?"
     )]
     NoFit,
+    /// This program was built without them.
+    #[error(
+        "a part of the outline is unknown or cut off, and this program was built without the feature `pieces`, which makes poses of the rest"
+    )]
+    LeftOut,
     /// Working memory is too short.
     #[error(transparent)]
     Memory(#[from] TooLittleMemory),

@@ -1,8 +1,9 @@
-//! Which way a triangle faces, measured from its vertices.
+//! Which way the triangles beside an edge face, measured from their vertices.
 
-/// Whether a triangle faces the camera, where that is certain: of the camera's place in model coordinates, margins (for each
-/// mm of the longest side; beside that; how far planes are from where they seem, mm) and corners.
-pub(crate) type Facing = fn(&[f32; 3], [f32; 3], [&[f32; 3]; 3]) -> Option<bool>;
+/// Whether the triangles beside an edge, first that which runs it forth, face the camera, where that is certain of both: of the
+/// camera's place in model coordinates, margins (for each mm of the longest side; beside that; how far planes are from where they
+/// seem, mm), and the ends of the edge with the third corners of both triangles.
+pub(crate) type Facing = fn(&[f32; 3], [f32; 3], [&[f32; 3]; 4]) -> Option<[bool; 2]>;
 
 /// Twelve roundings to 32 bits, as part of a number.
 const ROUNDINGS: f32 = 12.0 * f32::EPSILON;
@@ -15,20 +16,29 @@ const ROUNDINGS: f32 = 12.0 * f32::EPSILON;
 pub(super) fn faces_surely(
     place: &[f32; 3],
     [per_mm, least, rounding]: [f32; 3],
-    [a, b, c]: [&[f32; 3]; 3],
-) -> Option<bool> {
+    [from, to, forth, back]: [&[f32; 3]; 4],
+) -> Option<[bool; 2]> {
     let minus = |p: &[f32; 3], q: &[f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     // No less than the length.
     let length = |p: &[f32; 3]| p[0].abs() + p[1].abs() + p[2].abs();
-    let ([p, q], way) = ([minus(b, a), minus(c, a)], minus(place, a));
-    let normal = [
-        p[1] * q[2] - p[2] * q[1],
-        p[2] * q[0] - p[0] * q[2],
-        p[0] * q[1] - p[1] * q[0],
+    // None of them is a NaN: the language's own `max` would ask.
+    let longer = |a: f32, b: f32| if a > b { a } else { b };
+    let (edge, way) = (minus(to, from), minus(place, from));
+    // Both determinants are of the edge as it is run forth, the way and one more side.
+    let across = [
+        way[1] * edge[2] - way[2] * edge[1],
+        way[2] * edge[0] - way[0] * edge[2],
+        way[0] * edge[1] - way[1] * edge[0],
     ];
-    let from_plane = normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2];
-    let longest = length(&p).max(length(&q)).max(length(&minus(c, b)));
     let rounding = rounding + ROUNDINGS * length(&way);
-    let margin = longest * per_mm + least + longest * longest * rounding;
-    (from_plane.abs() > margin).then_some(from_plane < 0.0)
+    let along = length(&edge);
+    let from_plane = |third: &[f32; 3]| {
+        let side = minus(third, from);
+        let longest = longer(longer(along, length(&side)), length(&minus(third, to)));
+        let margin = longest * per_mm + least + longest * longest * rounding;
+        let distance = across[0] * side[0] + across[1] * side[1] + across[2] * side[2];
+        (distance.abs() > margin).then_some(distance)
+    };
+    let (forth, back) = (from_plane(forth)?, from_plane(back)?);
+    Some([forth < 0.0, back > 0.0])
 }

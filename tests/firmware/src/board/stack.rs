@@ -10,18 +10,13 @@ unsafe extern "C" {
     static __sdata: u32;
     /// First address after the statics, where the stack may grow down to.
     static __euninit: u32;
-    /// First address after code and constants.
+    /// First address of the code, and the first after it.
+    static __stext: u32;
+    static __etext: u32;
+    /// First address of constants, and the first after them.
+    static __srodata: u32;
     static __erodata: u32;
 }
-
-/// Where code and constants begin.
-const CODE: usize = if cfg!(feature = "netduinoplus2") {
-    0x0800_0000
-} else if cfg!(target_arch = "arm") {
-    0
-} else {
-    0x8000_0000
-};
 
 const PAINT: u32 = 0x5afe_57ac;
 /// Words painted: far more than the stack is expected to take, far fewer than there is room for.
@@ -57,9 +52,14 @@ pub(crate) fn statics() -> usize {
     addr_of!(__euninit) as usize - addr_of!(__sdata) as usize
 }
 
-/// Bytes of code and constants.
+/// Bytes of code: the core's, that of the arithmetic which software does, and the proof's own.
 pub(crate) fn code() -> usize {
-    addr_of!(__erodata) as usize - CODE
+    addr_of!(__etext) as usize - addr_of!(__stext) as usize
+}
+
+/// Bytes of constants: tables, sentences, and what was put into flash to be read there.
+pub(crate) fn constants() -> usize {
+    addr_of!(__erodata) as usize - addr_of!(__srodata) as usize
 }
 
 fn top() -> usize {
