@@ -22,6 +22,7 @@ import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
 import { JointReader } from './jobs/joint_reader';
 import { Landscapes } from './jobs/landscape';
+import { keepLeads } from './jobs/leads';
 import { Librarian } from './jobs/librarian';
 import { Keeper } from './keep/keeper';
 import { restoreWork, workToRestore } from './keep/restore';
@@ -63,6 +64,7 @@ async function start(root: HTMLElement): Promise<void> {
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
+  keepLeads(services.store);
   const film = new FilmLater(services, matcher, filmWorker());
   const oneClick = new OneClick(services, matcher, film);
   const tracingTools = new TracingTools(services, oneClick);
