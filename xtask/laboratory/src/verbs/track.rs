@@ -40,7 +40,7 @@ Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found),
 numbers and one standard deviation of each, and last the name of the frame's file and the frame's number in it), COMPONENT.covariances.csv, film.csv (the constants of the \
 film), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
 and after other clicks or fixed poses only what lies between them is done again.\n\n\
-States: fixed (a person gave the pose), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
+States: fixed (a person gave the pose: each row of --fixed that is not NaN), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
 (looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame. A run that is stopped (Ctrl-C, a task's end) loses nothing but the step in hand.\n\n\
 Of the standard deviations in track.csv: {}\n\n\
 Examples:\n  cargo xtask track --study study.toml --out tracked\n  \
@@ -57,7 +57,7 @@ pub struct Args {
     /// A place inside a component in a frame, from 1; pixels
     #[arg(long, value_name = "COMPONENT:FRAME:COLUMN,ROW")]
     click: Vec<Click>,
-    /// Poses that a person fixed: a row a frame, NaN where it did not
+    /// Poses that a person fixed: a row a frame. Every row with a pose counts as one, so NaN stands where nobody checked it
     #[arg(long, value_name = "COMPONENT=FILE")]
     fixed: Vec<FixedPoses>,
     #[command(flatten)]
