@@ -214,7 +214,7 @@ export const en = {
     startedAnew: 'Started anew. The work from before is under Save, Earlier work; Ctrl+Z brings it back at once.',
     openLabel: 'open earlier work',
     opened: (name: string) => `Opened ${name || 'the work'} as it was left.`,
-    restored: (name: string, at: number) => `${name || 'The work'} is back as it was at ${new Date(at).toLocaleTimeString()}.`,
+    restored: (name: string, at: number) => `${name || 'The work'} is back as it was at ${new Date(at).toLocaleTimeString()}; undo begins anew here.`,
     notRestored: (name: string, why: string) => `${name || 'The work'} of last time could not be brought back: ${why}. It stays in this browser, under Save, Earlier work.`,
     notLookedAt: (why: string) => `The browser does not say what it keeps of earlier work (${why.replace(/\.$/, '')}): reload the page to try again.`,
     newer: (program: string) => `it was written by ${program}, which is newer than this page: reload the page`,
