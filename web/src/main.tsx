@@ -51,7 +51,14 @@ async function start(root: HTMLElement): Promise<void> {
   const assets = new Assets();
   const studio = await Studio.open(frameDecoder(assets, decodeWorker()));
   const matcher = poseWorker();
-  const services: Services = { store: new Store(), studio, assets, decoder: decodeWorker(), shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => null) };
+  const services: Services = {
+    store: new Store(),
+    studio,
+    assets,
+    decoder: decodeWorker(),
+    shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => null),
+    doubtsOf: (camera) => matcher.call('cameraDoubts', camera).catch(() => []),
+  };
   // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.
   const calibrator = new Calibrator(services);
   new FramesAhead(services);
