@@ -182,6 +182,8 @@ export const en = {
     hand: 'Drag to move the frame, wheel to zoom at the cursor, 0 to see all of it.',
     window: 'Drag sideways for contrast, up and down for brightness; R goes back to what the frame suggests.',
     noOutline: (component: string) => `No outline of the ${component} here: press O and click into it, or P and trace it.`,
+    again: (component: string) => `A click inside the ${component} finds it anew.`,
+    posed: (component: string) => `The ${component} has a pose here and no outline: A moves its model, clicks with P trace it.`,
     onPoint: (point: number) => `Point ${point}: drag to move it; Alt-click or Delete removes it.`,
     onSide: 'Click to insert a point here; U marks this side unknown, or known again.',
     open: 'The outline is open: press P to go on tracing, Enter to close it.',
