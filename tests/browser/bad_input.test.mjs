@@ -34,10 +34,27 @@ pageTest('bad input', async (page, t) => {
   }
 
   await step(page, t, 'a bad file among good ones', async () => {
-    await drop(page, file('notes.docx', 'PK\u0003\u0004 nothing of ours'), { ...png(8), name: 'good.png' });
+    await drop(page, file('notes.docx', 'PK\u0003\u0004 nothing of ours'), { ...(await demoFile(framePath(3))), name: 'good.png' });
     await panel.waitForFrames(page, 3);
     await panel.waitForWords(page, /not recognised .*: notes\.docx/);
     await screenshot(page, 'error');
+    await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
+    await stillThere(page, stage, work);
+  });
+
+  await step(page, t, 'a frame of another size, and a calibration in pixels a mm', async () => {
+    await choose(page, { ...png(8), name: 'small.png' });
+    await panel.waitForWords(page, /^small\.png is 24 x 16 pixels but 0001\.png is 1024 x 1024 pixels: a film has frames of one size/);
+    await page.keyboard.press('Control+z');
+    await panel.waitForFrames(page, 3);
+    const calibration = await demoFile('calibration.txt');
+    const text = calibration.buffer.toString().replace('0.373', String(1 / 0.373));
+    await choose(page, file('wrong.txt', text));
+    await panel.waitForWords(page, /^Camera: the focal length, 447\.6 pixels, is 0\.44 times the frame's longer side/);
+    await page.getByRole('button', { name: 'Calibration: wrong.txt' }).click();
+    await page.getByRole('dialog', { name: 'Calibration' }).getByText(/^Camera: the focal length, 447\.6 pixels/).waitFor();
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Control+z');
     await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
     await stillThere(page, stage, work);
   });

@@ -7,6 +7,7 @@
 
 mod anatomy;
 mod bead_grid;
+mod camera;
 mod choice;
 mod exchange;
 #[cfg(test)]
@@ -25,6 +26,7 @@ mod working_model;
 
 pub use anatomy::{ShapeAxes, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
+pub use camera::camera_doubts;
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use film::{FilmFacts, FilmStudy, stated_film_words};

@@ -22,6 +22,7 @@ import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
 import { JointReader } from './jobs/joint_reader';
 import { Landscapes } from './jobs/landscape';
+import { keepLeads } from './jobs/leads';
 import { Librarian } from './jobs/librarian';
 import { Keeper } from './keep/keeper';
 import { restoreWork, workToRestore } from './keep/restore';
@@ -57,6 +58,7 @@ async function start(root: HTMLElement): Promise<void> {
     decoder: decodeWorker(),
     shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => null),
     checkLibrary: (library) => matcher.call('check', { library }),
+    doubtsOf: (camera) => matcher.call('cameraDoubts', camera).catch(() => []),
   };
   // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.
   const calibrator = new Calibrator(services);
@@ -70,6 +72,7 @@ async function start(root: HTMLElement): Promise<void> {
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
+  keepLeads(services.store);
   const film = new FilmLater(services, matcher, filmWorker());
   const oneClick = new OneClick(services, matcher, film);
   const tracingTools = new TracingTools(services, oneClick);

@@ -20,7 +20,12 @@ import { download, pickFiles } from '../exchange/browser_files';
 import { fileStem } from '../terms/file_name';
 import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';
+import { componentToOutline } from '../results/steps';
+import type { ToolName } from '../terms/tool';
 import { WorkActions } from './work_actions';
+
+/** Tools that begin outlines. */
+const OUTLINING: readonly ToolName[] = ['trace', 'wire', 'threshold', 'brush'];
 
 const NOTHING_HIT = { kind: 'nothing' } as const;
 
@@ -72,6 +77,7 @@ export class Actions {
     }
     switch (action.name) {
       case 'tool':
+        if (OUTLINING.includes(action.tool)) store.selectComponent(componentToOutline(store.state));
         store.show({ tool: action.tool });
         return true;
       case 'tracing':

@@ -1,10 +1,10 @@
 import { canBeChecked, checkState, markOf, setNote, toggleChecked, toggleFlagged } from '../document/marks';
-import { nextDoubt } from '../results/doubts';
+import { type Doubt, doubtsOf, nextDoubt } from '../results/doubts';
 import { nextTask } from '../results/progress';
 import { standingOf } from '../results/steps';
 import type { Place } from '../document/command';
 import { currentPlace, type Store } from '../document/store';
-import { cellOf } from '../document/types';
+import { cellOf, type Doc } from '../document/types';
 import { poseKeys } from '../results/keys';
 import { startAnew } from '../keep/restore';
 import type { Follower } from '../jobs/follower';
@@ -67,7 +67,7 @@ export class WorkActions {
     const now = checkState(cell, markOf(this.#store.doc, place)) === 'yes';
     this.#say(place, now ? texts.work.saidChecked : texts.work.saidUnchecked);
     // Who goes through what is doubtful goes on.
-    if (now && next) this.goTo(next.place);
+    if (now && next) this.goTo(stillDoubtful(this.#store.doc, next).place);
     if (standingOf(this.#store.doc).doubtful === 0) this.#store.show({ checking: false });
     return true;
   }
@@ -120,4 +120,10 @@ export class WorkActions {
     const number = 1 + this.#store.doc.frames.findIndex(({ id }) => id === frameId);
     this.#store.say('info', sentence(number, texts.component[component]));
   }
+}
+
+/** The doubt that was the next, or the worst where a check has lifted that one; itself where none is left. */
+function stillDoubtful(doc: Doc, next: Doubt): Doubt {
+  const doubts = doubtsOf(doc);
+  return doubts.find(({ index, place }) => index === next.index && place.component === next.place.component) ?? doubts[0] ?? next;
 }

@@ -23,6 +23,8 @@ export interface Followed {
   readonly badness: number;
   /** From the other side of the mirror, where somebody may compare both. */
   readonly rival: Pick<Candidate, 'pose' | 'residual'> | null;
+  /** It was followed from nothing but doubtful poses. */
+  readonly led: boolean;
   /** A sentence without its full stop. */
   readonly because: string;
   /** The frames that it was followed from. */
@@ -83,14 +85,23 @@ function withFollowed(doc: Doc, one: Followed): Doc {
   return isFree(cell) ? withCell(doc, one.place, { ...cell, result: resultOf(one), resultOf: null }) : doc;
 }
 
-function resultOf({ pose, deviations, residual, doubtful, badness, rival, because, from }: Followed): Result {
+function resultOf({ pose, deviations, residual, doubtful, badness, rival, led, because, from }: Followed): Result {
   const origin = `${FOLLOWED} ${from}`;
   const sentence = `${because.charAt(0).toUpperCase()}${because.slice(1)}.`;
   if (!pose) return { kind: 'failed', origin, sentence };
-  const verdict: Verdict = { word: doubtful ? 'doubtful' : 'good', because };
+  const own: Verdict = { word: doubtful ? 'doubtful' : 'good', because };
   const rivals = rival ? [{ ...bare(rival.pose), residual: rival.residual }] : [];
-  const posed = posedBy(origin, { ...bare(pose), residual, deviations }, verdict, sentence);
-  return { ...posed, candidates: [...posed.candidates, ...rivals], doubt: badness };
+  const posed = posedBy(origin, { ...bare(pose), residual, deviations }, own, sentence);
+  const result = { ...posed, candidates: [...posed.candidates, ...rivals], doubt: badness };
+  return led && !doubtful ? asLed({ ...result, own }, true) : result;
+}
+
+/** A pose that was followed from doubtful ones, as they are now; the same object where nothing changes. */
+export function asLed(result: Posed, isDoubtful: boolean): Posed {
+  const { verdict, own = null } = result;
+  const { fromDoubtful } = texts.follow;
+  if ((verdict?.because === fromDoubtful) === isDoubtful) return result;
+  return { ...result, verdict: isDoubtful ? { word: 'doubtful', because: fromDoubtful } : own };
 }
 
 function posedBy(origin: string, candidate: Candidate, verdict: Verdict, reason: string | null): Posed {

@@ -221,6 +221,8 @@ export interface Posed {
   readonly verdict: Verdict | null;
   /** How bad a followed pose is: above 1 it is doubtful, and the worst have the most. */
   readonly doubt?: number;
+  /** Of a pose that was followed from a doubtful one: what is said of it as soon as that one is doubtful no more. */
+  readonly own?: Verdict;
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
   /** Missing where the poses were brought onto an outline, not onto the edges of the frame itself. */

@@ -13,6 +13,7 @@ import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
+import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
@@ -29,6 +30,7 @@ interface Recognised extends Incoming {
  * others are opened all the same.
  */
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
+  const before = cameraKey(services);
   const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
@@ -53,6 +55,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   if (study) opened.push(openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
+  failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
   askWhichPoses(services, poses);
@@ -351,6 +354,13 @@ function addToDocument({ store, studio }: Services, entries: readonly FrameEntry
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
   if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: studyName(entries[0]!) }));
   if (store.doc.frames.length > first) store.goTo(first);
+}
+
+/** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */
+function sizesAmong(frames: readonly FrameEntry[], came: number): readonly string[] {
+  const [first] = frames;
+  const other = came > 0 && frames.find(({ width, height }) => width !== first?.width || height !== first.height);
+  return first && other ? [texts.said.sizes(other, first)] : [];
 }
 
 function studyName(frame: FrameEntry): string {

@@ -38,13 +38,14 @@ const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const;
 const UNITS = ['x_mm', 'y_mm', 'z_mm', 'z_rot_deg', 'x_rot_deg', 'y_rot_deg'];
 const HEAD = ['frame', 'component', 'state', 'verdict', 'because', ...UNITS, ...UNITS.map((name) => `sd_${name}`), 'misfit_px', 'badness', 'file', 'frame_of_file', 'method', 'checked'];
 
-/** State, verdict and reason. */
+/** State, verdict and reason. Fixed is what a person gave: by hand, from a file, by choice or by a check; what a click or an outline led to is found. */
 function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   const { result } = cell;
   if (result?.kind !== 'posed') return ['no pose', 'none', result?.sentence ?? ''];
   const doubt = doubtOf(cell);
   if (doubt !== null) return ['doubtful', 'doubtful', doubt];
-  return [isChecked || result.from !== 'film' ? 'fixed' : 'followed', 'good', result.verdict?.because ?? ''];
+  const isGiven = isChecked || result.from === 'hand' || result.from === 'file' || result.chosen !== 0;
+  return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', result.verdict?.because ?? ''];
 }
 
 function numbersOf(candidate: Candidate | null): readonly (number | null)[] {

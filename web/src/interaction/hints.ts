@@ -10,8 +10,11 @@ export function hint(
   component: string,
   outline: Outline | null,
   hit: Hit,
-  situation: TracingSituation = { erase: false, adjusting: false },
+  situation: TracingSituation = { erase: false, adjusting: false, posed: false },
 ): string {
+  // What is done already is not asked for.
+  if (situation.posed && tool === 'one-click') return texts.hints.again(component);
+  if (situation.posed && !outline && (tool === 'edit' || tool === 'trace')) return texts.hints.posed(component);
   const ofTool = tracingHint(tool, component, outline, hit, situation);
   if (ofTool !== null) return ofTool;
   switch (tool) {

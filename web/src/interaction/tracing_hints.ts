@@ -8,6 +8,8 @@ export interface TracingSituation {
   readonly erase: boolean;
   /** A region was taken and its level can still be moved. */
   readonly adjusting: boolean;
+  /** The component has a pose in this frame. */
+  readonly posed: boolean;
 }
 
 /** What the next click does with the tools that shape outlines; null for all other tools. */

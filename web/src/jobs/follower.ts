@@ -292,13 +292,12 @@ export class Follower {
       if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
       const place: Place = { frameId: frame.id, component };
       const { pose, deviations, residual, badness, rival } = one;
-      const isLed = span.isDoubtful && one.state === 'followed';
-      const because = isLed ? texts.follow.fromDoubtful : one.because;
-      return [{ place, pose, deviations, residual, badness, rival, because, doubtful: isLed || one.state === 'doubtful', from: span.key(index) }];
+      const { because } = one;
+      return [{ place, pose, deviations, residual, badness, rival, led: span.isDoubtful, because, doubtful: one.state === 'doubtful', from: span.key(index) }];
     });
   }
 }
 
-function isDoubtful({ pose, doubtful }: Followed): boolean {
-  return pose !== null && doubtful;
+function isDoubtful({ pose, doubtful, led }: Followed): boolean {
+  return pose !== null && (doubtful || led);
 }

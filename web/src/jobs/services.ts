@@ -3,6 +3,7 @@ import type { Job, Store } from '../document/store';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
 import type { ComponentName } from '../terms/component';
+import type { CameraInput } from '../workers/protocol/camera';
 import type { DecodeProtocol, ModelMesh } from '../workers/protocol/decode';
 import type { Studio } from '../films/studio';
 
@@ -16,6 +17,8 @@ export interface Services {
   readonly shapeOf: (mesh: ModelMesh) => Promise<ComponentName | null>;
   /** Throws the core's sentence for a library that is damaged. */
   readonly checkLibrary: (library: Uint8Array<ArrayBuffer>) => Promise<null>;
+  /** What is unusual of a camera, sentences without their full stops. */
+  readonly doubtsOf: (camera: CameraInput) => Promise<readonly string[]>;
 }
 
 let lastJob = 0;

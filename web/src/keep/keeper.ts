@@ -149,8 +149,8 @@ export class Keeper {
   }
 
   #view(): string {
-    const { frameIndex, component, overlayOpacity } = this.#store.ui;
-    return JSON.stringify({ frameIndex, component, overlayOpacity });
+    const { frameIndex, component, overlayOpacity, tool } = this.#store.ui;
+    return JSON.stringify({ frameIndex, component, overlayOpacity, tool });
   }
 
   // --- Writing --------------------------------------------------------------------------------------------------

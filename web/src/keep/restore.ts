@@ -1,6 +1,7 @@
 import { readDoc, readView, SESSION_VERSION } from '../document/session/session';
 import { ReadError } from '../document/reader';
 import { EMPTY_DOC, type Doc } from '../document/types';
+import { TOOL_NAMES } from '../terms/tool';
 import { texts } from '../texts/texts';
 import { bringFiles } from '../exchange/bring_files';
 import { sentenceOf, type Services } from '../jobs/services';
@@ -66,7 +67,10 @@ async function docOf(keeper: Keeper, work: KeptWork): Promise<Doc> {
 
 function showView({ store }: Services, work: KeptWork): void {
   const { frameIndex, component, overlayOpacity } = readView(work.view, texts.keep.place);
-  store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, selectedPoint: null, savedAt: null });
+  // Sessions have none, nor works from before.
+  const { tool: kept } = work.view as { readonly tool?: unknown };
+  const tool = TOOL_NAMES.find((name) => name === kept) ?? store.ui.tool;
+  store.show({ tool, component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, selectedPoint: null, savedAt: null });
   store.goTo(frameIndex);
 }
 

@@ -80,7 +80,9 @@ function posedFrames(doc: Doc): readonly JointFrame[] {
 
 /** How far the numbers of a frame are to be trusted: as far as the poorer of its two poses. */
 export interface JointTrust {
+  /** Nobody has accepted it as it is. */
   readonly doubtful: boolean;
+  /** Both poses, or whatever of them is doubtful. */
   readonly checked: boolean;
 }
 
@@ -95,10 +97,10 @@ export function jointTrusts(doc: Doc): readonly JointTrust[] {
 
 function trustOf(doc: Doc, frameId: string): JointTrust {
   const cells = COMPONENT_NAMES.map((component) => ({ cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
-  return {
-    doubtful: cells.some(({ cell }) => doubtOf(cell) !== null),
-    checked: cells.every(({ cell, mark }) => checkState(cell, mark) === 'yes'),
-  };
+  const checks = cells.map(({ cell, mark }) => ({ isDoubtful: doubtOf(cell) !== null, isChecked: checkState(cell, mark) === 'yes' }));
+  const doubtful = checks.some(({ isDoubtful, isChecked }) => isDoubtful && !isChecked);
+  const isAccepted = !doubtful && checks.some(({ isDoubtful }) => isDoubtful);
+  return { doubtful, checked: isAccepted || checks.every(({ isChecked }) => isChecked) };
 }
 
 /** Why a pose is doubtful, a sentence without its full stop; null where it is not. */

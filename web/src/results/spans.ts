@@ -3,6 +3,7 @@ import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 
 /** Frames that a component is to be followed over, from those that a person set. */
 export interface Span {
@@ -33,12 +34,15 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const key = (frame: number) => keyAmong(given, frame);
   // Frames that were followed together with one that somebody finds right need not be followed again for it.
   const besidesAccepted = given.filter(({ isAccepted }) => !isAccepted);
+  const isDoubtful = given.every((one) => one.isDoubtful);
   const set = new Set(given.map(({ frame }) => frame));
   const stale = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
     if (set.has(frame) || !isFree(cell)) return [];
     const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
-    const isDone = isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted));
+    // Sessions from before `own` do not know what is said of it now.
+    const isLed = !isDoubtful && verdictOf(cell.result)?.because === texts.follow.fromDoubtful;
+    const isDone = !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
     return isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
@@ -46,7 +50,14 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const first = given.filter((one) => one.frame < from).at(-1)?.frame ?? 0;
   const last = given.find((one) => one.frame > to)?.frame ?? doc.frames.length - 1;
   const inside = given.filter(({ frame }) => frame >= first && frame <= last);
-  return { first, last, free: stale.length, given: inside, isDoubtful: given.every((one) => one.isDoubtful), key };
+  return { first, last, free: stale.length, given: inside, isDoubtful, key };
+}
+
+/** Is what a frame was followed from doubtful? Null where it would be followed from others now. */
+export function isLeadDoubtful(doc: Doc, component: ComponentName): (frame: number, origin: string) => boolean | null {
+  const given = givenPoses(doc, component);
+  const isDoubtful = given.every((one) => one.isDoubtful);
+  return (frame, origin) => (given.length > 0 && origin.endsWith(keyAmong(given, frame)) ? isDoubtful : null);
 }
 
 /** Poses that a person set, traced, opened or checked. Those of a doubtful outline lead only where there is nothing better. */

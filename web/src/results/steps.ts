@@ -67,6 +67,16 @@ export function componentMeant(state: State, at: FramePoint): ComponentName {
   return result?.kind === 'posed' && outline !== null && !isInside(outline.points, at) ? other : component;
 }
 
+/** The component that a tool outlines when it is taken: the selected one, but where that has its outline, or was just clicked, the one that the card asks for. */
+export function componentToOutline(state: State): ComponentName {
+  const { component, frameIndex, jobs } = state.ui;
+  const doc = state.history.present;
+  const id = doc.frames[frameIndex]?.id;
+  const awaited = awaitsClick(state);
+  const isTaken = cellOf(doc, id, component).outline?.closed || jobs.some(({ place, at }) => at && place?.frameId === id && place?.component === component);
+  return isTaken && isReady(doc) && awaited.length > 0 && !awaited.includes(component) ? otherThan(component) : component;
+}
+
 /** A second click this near to the first, as a part of the frame, is the same once more. */
 const SAME = 0.03;
 

@@ -1,7 +1,8 @@
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import * as commands from '../document/commands';
 import { currentFrame, type State } from '../document/store';
 import type { CalibrationFacts } from '../workers/protocol/camera';
+import { cameraDoubts, cameraKey } from '../jobs/camera_doubts';
 import { sentenceOf } from '../jobs/services';
 import { useApp } from '../commands/app';
 import { NumberField } from '../controls/number_field';
@@ -29,6 +30,7 @@ export function CalibrationSheet({ state }: { state: State }) {
       store.perform(commands.setCalibration({ name: texts.calibration.typedName, text }));
       setTrouble('');
       store.show({ popover: null });
+      void cameraDoubts(services).then((doubts) => doubts.forEach((doubt) => store.say('error', doubt)));
     } catch (error) {
       setTrouble(sentenceOf(error));
     }
@@ -42,6 +44,7 @@ export function CalibrationSheet({ state }: { state: State }) {
       }}
     >
       <p class="sheet-text">{describe(state, facts)}</p>
+      <Doubts key={cameraKey(services)} />
       <div class="fields">
         <NumberField label={texts.calibration.distance} unit="mm" value={typed.distance} onChange={set('distance')} />
         <NumberField label={texts.calibration.pitch} unit="mm" value={typed.pitch} onChange={set('pitch')} />
@@ -67,6 +70,22 @@ export function CalibrationSheet({ state }: { state: State }) {
         </button>
       </div>
     </form>
+  );
+}
+
+/** What is unusual of the camera in use. */
+function Doubts() {
+  const { services } = useApp();
+  const [doubts, setDoubts] = useState<readonly string[]>([]);
+  useEffect(() => void cameraDoubts(services).then(setDoubts), []);
+  return (
+    <>
+      {doubts.map((doubt) => (
+        <p key={doubt} class="sheet-trouble">
+          {doubt}
+        </p>
+      ))}
+    </>
   );
 }
 

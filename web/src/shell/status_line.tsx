@@ -2,6 +2,7 @@ import { useEffect } from 'preact/hooks';
 import { currentCell, currentFrame, type Job, type State } from '../document/store';
 import { chosenCandidate } from '../document/types';
 import type { Motion } from '../interaction/adjust';
+import { isInCheck } from '../commands/check_keys';
 import { handHint } from '../commands/hand_bindings';
 import { hint } from '../interaction/hints';
 import { guideOf } from '../results/steps';
@@ -44,11 +45,13 @@ function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion |
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
+  if (isInCheck(state)) return { text: texts.check.hint, kind: 'hint' };
   if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
   // The card on the film may ask for the other one.
   const guide = guideOf(state);
   const asked = guide?.ask === 'click' ? guide.component : component;
-  return { text: hint(tool, asked, outline, hit, { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null }), kind: 'hint' };
+  const situation = { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null, posed: asked === component && result?.kind === 'posed' };
+  return { text: hint(tool, asked, outline, hit, situation), kind: 'hint' };
 }
 
 /** News passes; errors stay until something is done. */

@@ -16,7 +16,7 @@ export const check = {
   editTitle: 'Change the outline, or the pose by hand (E)',
   next: 'Later',
   nextTitle: 'Leave it for later and go on to the next (N)',
-  blink: 'Hold Space to see the frame alone.',
+  hint: 'Y accepts it, 1 to 3 take one of its poses, E edits, N leaves it for later; Space held shows the frame alone.',
   keys: {
     take: 'While a doubtful pose is on view: take the first, second or third of its rivals',
     edit: 'While a doubtful pose is on view: edit it',

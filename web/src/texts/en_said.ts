@@ -1,4 +1,6 @@
 /** What the bottom line and the log say of outlines, files and poses. */
+type Sized = { readonly name: string; readonly width: number; readonly height: number };
+
 export const said = {
   tooFewPoints: (fewest: number, missing: number) => `An outline needs ${fewest} points: ${missing} more, then it can be closed.`,
   selectedPoint: (point: number, count: number) => `Point ${point} of ${count}: Delete removes it; U marks the side after it unknown.`,
@@ -14,6 +16,9 @@ export const said = {
   tableSaved: (component: string, frames: number) =>
     `Poses of the ${component} saved with their standard deviations, a row for each of ${frames} frames.`,
 
+  cameraDoubt: (doubt: string) => `Camera: ${doubt}`,
+  sizes: (other: Sized, first: Sized) =>
+    `${other.name} is ${other.width} x ${other.height} pixels but ${first.name} is ${first.width} x ${first.height} pixels: a film has frames of one size, those that were calibrated; undo, and leave the others out.`,
   opened: (what: string) => `Opened ${what}.`,
   of: (file: string, sentence: string) => `${file}: ${sentence}`,
   outlinesNeedFrames: 'outlines are for frames: open the frames first, then the outlines',

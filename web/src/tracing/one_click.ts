@@ -15,7 +15,7 @@ import { misfitsBeside } from '../results/film';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
 import { flat } from './pixels';
-import { otherThan } from '../terms/component';
+import { type ComponentName, otherThan } from '../terms/component';
 
 /** A click inside the implant, or opposite corners of a rough box. */
 export type Prompt = readonly [FramePoint] | readonly [FramePoint, FramePoint];
@@ -127,8 +127,14 @@ export class OneClick {
     store.show({ selectedPoint: null });
     const followed = gaveWay(before, store.doc, place) ? ` ${texts.follow.gaveWay}` : '';
     // What was refused stands in the cell and the bottom line as long as it does.
-    if (answer.match?.refusal == null) store.say('info', answer.sentence + followed);
+    if (answer.match?.refusal == null) store.say('info', (verdictSentence(place.component, answer) ?? answer.sentence) + followed);
   }
+}
+
+/** What is said of a pose is its verdict: of one that is good no doubt. Null without one. */
+function verdictSentence(component: ComponentName, { match }: OneClickFacts): string | null {
+  const { word, because } = match?.verdict ?? {};
+  return word && because ? texts.tracing.said.oneClickFound(texts.componentTitle[component], texts.panel.pose.verdicts[word], because) : null;
 }
 
 function promptNumbers([a, b]: Prompt): Float64Array<ArrayBuffer> {

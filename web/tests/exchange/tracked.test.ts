@@ -44,6 +44,25 @@ describe('poses as the commands take them', () => {
     ]);
   });
 
+  it('call fixed only what a person gave: by hand, from a file, by choice or by a check', () => {
+    const state = (change: Partial<Posed>, isChecked = false) => {
+      const store = film();
+      const place = { frameId: 'c', component: 'femur' } as const;
+      store.amend((doc) => withCell(doc, place, { outline: null, result: posed(UPPER, change), resultOf: null }));
+      if (isChecked) store.perform(toggleChecked(place));
+      return statesOf(store.doc).trimEnd().split('\r\n').at(-1)!.split(',').slice(2, 4).join(' ');
+    };
+    const ofClick = { from: 'outline', candidates: [bare(POSE), bare(POSE)] } as const;
+    const verdict = { word: 'doubtful', because: 'so' } as const;
+    expect(state(ofClick)).toBe('found good');
+    expect(state(ofClick, true)).toBe('fixed good');
+    expect(state({ ...ofClick, chosen: 1 })).toBe('fixed good');
+    expect(state({ ...ofClick, verdict })).toBe('doubtful doubtful');
+    expect(state({ from: 'hand' })).toBe('fixed good');
+    expect(state({ from: 'file' })).toBe('fixed good');
+    expect(state({})).toBe('followed good');
+  });
+
   it('have whole covariances, and what of them is the film\u2019s where that is known', () => {
     const files = unzipSync(zipOf(film().doc, { femur: 'F', tibia: 'T' }));
     expect(Object.keys(files)).toEqual(['femur.jts', 'femur.covariances.csv', 'tibia.jts', 'tibia.covariances.csv', 'track.csv', 'film.csv']);

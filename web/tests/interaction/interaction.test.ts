@@ -3,6 +3,7 @@ import * as history from '../../src/document/history';
 import { cellOf, EMPTY_DOC, type Outline } from '../../src/document/types';
 import { canvasPoint, framePoint } from '../../src/geometry/points';
 import { Controller } from '../../src/interaction/controller';
+import { hint } from '../../src/interaction/hints';
 import { hitDraft, hitTest } from '../../src/interaction/hit';
 import type { Button, Effect, Input, Situation } from '../../src/interaction/machine';
 import { draggedWindow, wheelZoom } from '../../src/interaction/navigate';
@@ -254,5 +255,16 @@ describe('a finger', () => {
     const viewport = { scale: 1, left: 0, top: 0 };
     expect(hitTest(outline, viewport, canvasPoint(10, 25)).kind).toBe('nothing');
     expect(hitTest(outline, viewport, canvasPoint(10, 25), 2)).toEqual({ kind: 'vertex', index: 0 });
+  });
+});
+
+describe('the line below', () => {
+  it('asks for nothing that is done', () => {
+    const situation = { erase: false, adjusting: false, posed: true };
+    const nothing = { kind: 'nothing' } as const;
+    expect(hint('one-click', 'tibia', null, nothing, { ...situation, posed: false })).toMatch(/^Click inside the tibia/);
+    expect(hint('one-click', 'tibia', null, nothing, situation)).toBe('A click inside the tibia finds it anew.');
+    for (const tool of ['edit', 'trace'] as const) expect(hint(tool, 'femur', null, nothing, situation)).toMatch(/^The femur has a pose here and no outline: A moves/);
+    expect(hint('trace', 'femur', null, nothing, { ...situation, posed: false })).toMatch(/to begin its outline/);
   });
 });

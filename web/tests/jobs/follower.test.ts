@@ -8,6 +8,9 @@ import { readSession, writeSession } from '../../src/document/session/session';
 import { Store } from '../../src/document/store';
 import { cellOf, chosenCandidate, type Posed, verdictOf } from '../../src/document/types';
 import type { PoseNumbers } from '../../src/geometry/pose_numbers';
+import { keepLeads, withLeads } from '../../src/jobs/leads';
+import { spanToFollow } from '../../src/results/spans';
+import { standingOf } from '../../src/results/steps';
 import { Follower } from '../../src/jobs/follower';
 import type { Beside } from '../../src/jobs/film_beside';
 import type { ComponentName } from '../../src/terms/component';
@@ -213,6 +216,45 @@ describe('following', () => {
     await follower.follow();
     expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([5]);
     expect(at(1)?.word).toBe('good');
+  });
+
+  it('calls good what a doubtful pose led to as soon as that one is checked, and doubtful again without the check', async () => {
+    const { store, follower } = bench();
+    keepLeads(store);
+    const outline = { points: [], closed: true, unknownSides: [] };
+    const verdict = { word: 'doubtful', because: 'a part of it lies on no edge' } as const;
+    const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(poseOf(0))], chosen: 0, reason: null, decided: true, verdict };
+    store.perform({ label: 'trace', apply: (doc) => withCell(doc, place(0), { outline, result, resultOf: outline }) });
+    await follower.follow();
+    const words = () => [1, 2, 3, 4, 5].map((frame) => verdictOf(cellOf(store.doc, `f${frame}`, 'femur').result)?.word);
+    expect(words()).toEqual(Array(5).fill('doubtful'));
+    const kept = readSession(writeSession({ doc: store.doc, view: { frameIndex: 0, component: 'femur', overlayOpacity: 0.5 }, files: [], audit: null }, 'test', new Date(0)).join('')).doc;
+    store.perform(toggleChecked(place(0)));
+    // Frame 4 is doubtful by itself.
+    expect(words()).toEqual(['good', 'good', 'good', 'doubtful', 'good']);
+    expect(verdictOf(cellOf(store.doc, 'f1', 'femur').result)?.because).toBe('as followed says');
+    expect(standingOf(store.doc)).toMatchObject({ step: 'check', free: 0, doubtful: 1 });
+    store.undo();
+    expect(words()).toEqual(Array(5).fill('doubtful'));
+    store.redo();
+    expect(words()[0]).toBe('good');
+    // The machine may find it good as well, and a session knows what each frame says by itself.
+    const found = withLeads(withCell(kept, place(0), { ...cellOf(kept, 'f0', 'femur'), result: { ...result, verdict: { word: 'good', because: 'it fits' } } }));
+    expect(verdictOf(cellOf(found, 'f1', 'femur').result)?.word).toBe('good');
+  });
+
+  it('follows again what sessions without it call doubtful for a pose that is doubtful no more', async () => {
+    const { store, follower } = bench();
+    const outline = { points: [], closed: true, unknownSides: [] };
+    const verdict = { word: 'doubtful', because: 'a part of it lies on no edge' } as const;
+    const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(poseOf(0))], chosen: 0, reason: null, decided: true, verdict };
+    store.perform({ label: 'trace', apply: (doc) => withCell(doc, place(0), { outline, result, resultOf: outline }) });
+    await follower.follow();
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+    store.perform(toggleChecked(place(0)));
+    expect(spanToFollow(store.doc, 'femur')).toMatchObject({ free: 4, isDoubtful: false });
+    await follower.follow();
+    expect(verdictOf(cellOf(store.doc, 'f1', 'femur').result)?.word).toBe('good');
   });
 
   it('fills cells as it goes, beside what a person does, and leaves nothing of that behind', async () => {

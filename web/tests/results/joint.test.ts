@@ -78,6 +78,11 @@ describe('curves of a joint', () => {
     const points = pointsOf(store.doc, numbers(), 'flexion_deg', { over: 'frame', rate: NaN });
     expect(points.filter(({ doubtful }) => doubtful).map(({ index }) => index)).toEqual([1]);
     expect(points.filter(({ checked }) => checked).map(({ index }) => index)).toEqual([2]);
+    // Who accepts what is doubtful has looked at all of it that has to be looked at.
+    store.perform(toggleChecked({ frameId: 'f1', component: 'tibia' }));
+    const accepted = pointsOf(store.doc, numbers(), 'flexion_deg', { over: 'frame', rate: NaN });
+    expect(accepted.filter(({ doubtful }) => doubtful)).toEqual([]);
+    expect(accepted.filter(({ checked }) => checked).map(({ index }) => index)).toEqual([1, 2]);
   });
 
   it('leave room for their bands, but not for one that is far wider than the others', () => {

@@ -6,7 +6,7 @@ import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
-import { componentMeant, guideOf, standingOf } from '../../src/results/steps';
+import { componentMeant, componentToOutline, guideOf, standingOf } from '../../src/results/steps';
 import type { ComponentName } from '../../src/terms/component';
 
 const FRAMES = 3;
@@ -95,6 +95,21 @@ describe('a click', () => {
     clicked(store, 1, 'tibia');
     store.goTo(0);
     expect(componentMeant(store.state, framePoint(7, 7))).toBe('femur');
+  });
+});
+
+describe('a tool that outlines', () => {
+  it('is of the component that the card asks for, once the selected one has its outline', () => {
+    const store = ready();
+    expect(componentToOutline(store.state)).toBe('femur');
+    clicked(store, 0, 'femur');
+    store.show({ tool: 'trace' });
+    expect(componentToOutline(store.state)).toBe('tibia');
+    store.goTo(1);
+    expect(componentToOutline(store.state)).toBe('femur');
+    store.goTo(0);
+    clicked(store, 1, 'tibia');
+    expect(componentToOutline(store.state)).toBe('femur');
   });
 });
 

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { bare } from '../../src/document/hand_poses';
 import { addFrames, addPoint, setCalibration, setModel } from '../../src/document/commands';
 import { currentRefusal, Store } from '../../src/document/store';
 import { cellOf } from '../../src/document/types';
@@ -16,11 +17,12 @@ function bench() {
   store.perform(addFrames([FRAME]));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
+  let told: Partial<OneClickFacts> = {};
   const asked: { input: OneClickInput; report: (fraction: number) => void; answer: () => Promise<unknown> }[] = [];
   const call = (_: string, input: OneClickInput, { signal, onProgress }: CallOptions<{ fraction: number }>) =>
     new Promise<OneClickFacts>((resolve, reject) => {
       signal?.addEventListener('abort', () => reject(new Aborted()));
-      const facts = { outlines: [Float64Array.of(1, 1, 5, 1, 5, 5)], supports: [], corrected: false, bright: false, match: null, sentence: 'Found.' };
+      const facts = { outlines: [Float64Array.of(1, 1, 5, 1, 5, 5)], supports: [], corrected: false, bright: false, match: null, sentence: 'Found.', ...told };
       const report = (fraction: number) => onProgress?.({ fraction });
       asked.push({ input, report, answer: () => (resolve(facts), settle()) });
     });
@@ -28,7 +30,7 @@ function bench() {
   const oneClick = new OneClick({ store, studio } as never, { call } as never, { ready: async () => undefined });
   const click = (column: number) => void oneClick.ask([framePoint(column, 1)], { frameId: 'f', component: store.ui.component }, false);
   const outlineOf = (component: 'femur' | 'tibia') => cellOf(store.doc, 'f', component).outline;
-  return { store, asked, click, outlineOf };
+  return { store, asked, click, outlineOf, tell: (facts: Partial<OneClickFacts>) => void (told = facts) };
 }
 
 describe('one click', () => {
@@ -46,6 +48,16 @@ describe('one click', () => {
     await asked[1]!.answer();
     expect([outlineOf('femur'), outlineOf('tibia')].map((outline) => outline?.closed)).toEqual([true, true]);
     expect(store.ui.jobs).toEqual([]);
+  });
+
+  it('says of a pose what its verdict says, so that nothing beside it says otherwise', async () => {
+    const { store, asked, click, tell } = bench();
+    const candidates = [bare({ x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 })];
+    tell({ sentence: 'Another pose explains the frame nearly as well.', match: { candidates, reason: 'r', decided: true, refusal: null, verdict: { word: 'good', because: 'the edges lie on the outline' } } as never });
+    click(1);
+    await settle();
+    await asked[0]!.answer();
+    expect(store.ui.notice?.text).toBe('Femur: Good, the edges lie on the outline.');
   });
 
   it('into the same cell takes the place of the one before, whose late progress shows nothing', async () => {

@@ -48,7 +48,6 @@ function CheckButtons() {
       <button type="button" class="button small" aria-keyshortcuts="n" title={words.nextTitle} onClick={() => actions.work.check()}>
         {words.next} <kbd aria-hidden="true">N</kbd>
       </button>
-      <span class="guide-text quiet check-why">{words.blink}</span>
     </div>
   );
 }

@@ -1,4 +1,4 @@
-import { checkLibrary, choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { cameraDoubts, checkLibrary, choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
@@ -40,6 +40,10 @@ serve<PoseProtocol>({
     await ready;
     const told = componentByShape(mesh.vertices, mesh.triangles);
     return COMPONENT_NAMES.find((component) => component === told) ?? null;
+  },
+  cameraDoubts: async ({ text, width, height }) => {
+    await ready;
+    return cameraDoubts(text, width, height);
   },
   axes: async ({ component, mesh }) => {
     await ready;

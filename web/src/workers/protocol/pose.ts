@@ -1,6 +1,7 @@
 import type { Axes } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
+import type { CameraInput } from './camera';
 import type { HandProtocol } from './by_hand';
 import type { JointProtocol } from './joint';
 import type { OnFilmProtocol } from './film';
@@ -34,6 +35,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   library: { input: { component: ComponentName }; output: Uint8Array<ArrayBuffer>; progress: never };
   /** The component that a model has the shape of; null where that does not tell. */
   shape: { input: { mesh: ModelMesh }; output: ComponentName | null; progress: never };
+  /** What is unusual of the camera of a calibration: sentences without their full stops. */
+  cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'>; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */
   axes: { input: { component: ComponentName; mesh: ModelMesh }; output: Pick<Axes, 'directions' | 'told'>; progress: never };
   /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */

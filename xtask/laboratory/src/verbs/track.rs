@@ -47,7 +47,7 @@ number in it, from 1).\n\n\
 COMPONENT.covariances.csv: frame, and c11 to c66, row by row, the covariance of a turn about the middle of the model's box (a rotation vector, radians: numbers 1 to 3) and a \
 shift of that middle (mm: 4 to 6), both along the camera's axes; film1_1 to film2_6: how turn and shift answer to one standard deviation of each of two constants of the film, which \
 is in the covariance already and moves both components together.\n\n\
-States: fixed (a person gave the pose), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
+States: fixed (a person gave the pose: each row of --fixed that is not NaN), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
 (looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame, and with 3 where no pose is good or \
 numbers are such as no knee has. A run that is stopped (Ctrl-C, a task's end) loses nothing but the step in hand.\n\n\
 Of the standard deviations in track.csv: {}\n\n\
@@ -65,7 +65,7 @@ pub struct Args {
     /// A place inside a component in a frame, from 1; pixels
     #[arg(long, value_name = "COMPONENT:FRAME:COLUMN,ROW")]
     click: Vec<Click>,
-    /// Poses that a person fixed: a row a frame, NaN where it did not
+    /// Poses that a person fixed: a row a frame. Every row with a pose counts as one, so NaN stands where nobody checked it
     #[arg(long, value_name = "COMPONENT=FILE")]
     fixed: Vec<FixedPoses>,
     #[command(flatten)]

@@ -1,0 +1,32 @@
+//! What is unusual of a calibration, in the core's words.
+
+use fluoropose_page::calibration;
+use wasm_bindgen::prelude::*;
+
+/// What is unusual of the camera of a calibration text for frames of `width` x `height` pixels: sentences without their full stops.
+///
+/// # Errors
+/// The core's sentence about the calibration.
+#[wasm_bindgen(js_name = cameraDoubts)]
+pub fn camera_doubts(text: &str, width: u32, height: u32) -> Result<Vec<String>, JsError> {
+    let camera = calibration::camera(text, width, height)?;
+    Ok(camera.doubts().map(|doubt| doubt.to_string()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_a_mm_for_mm_a_pixel_are_told() {
+        let told = |pitch: f64| {
+            camera_doubts(&format!("JT_INTCALIB\n1198\n0\n0\n{pitch}\n"), 800, 800).ok()
+        };
+        assert_eq!(told(0.4774).unwrap(), Vec::<String>::new());
+        let [doubt] = told(2.0945).unwrap().try_into().unwrap();
+        assert!(
+            doubt.starts_with("the focal length, 572.0 pixels, is 0.71 times"),
+            "{doubt}"
+        );
+    }
+}
