@@ -162,7 +162,7 @@ class Arguments(OnTheDemo):
         told(lambda: fp.track(frames, one, two, camera, "left", clicks=[late]), "clicks[0]: there is no such frame, the film has 2")
         early = fp.Click("tibia", -1, 5, 6)
         told(lambda: fp.track(frames, one, two, camera, "left", clicks=[early]), "clicks[0]: frame is -1")
-        told(lambda: fp.track(DEMO, one, two, camera, "left"), "frames: calibration.txt: ")
+        told(lambda: fp.track(DEMO, one, two, camera, "left"), "frames: ", "calibration.txt: this is a calibration, not a frame")
         told(lambda: fp.estimate(frames[0], one, camera, library=binary), "library: ", str(binary))
         told(lambda: fp.estimate(None, one, camera, frame=frames[0], click=(640, 5)), "click: column 640, row 5", "48 columns and 64 rows")
         told(lambda: fp.Camera.from_intcalib(binary), "source: ", str(binary))

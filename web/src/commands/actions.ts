@@ -24,8 +24,8 @@ import { componentToOutline } from '../results/steps';
 import type { ToolName } from '../terms/tool';
 import { WorkActions } from './work_actions';
 
-/** Tools that begin outlines. */
-const OUTLINING: readonly ToolName[] = ['trace', 'wire', 'threshold', 'brush'];
+/** Tools that begin outlines. A brush changes the one that there is. */
+const OUTLINING: readonly ToolName[] = ['trace', 'wire', 'threshold'];
 
 const NOTHING_HIT = { kind: 'nothing' } as const;
 
