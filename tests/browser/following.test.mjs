@@ -20,6 +20,13 @@ if (!IN_FIREFOX) {
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
     await step(page, t, 'a click while it is followed is answered at once', () => clickedMeanwhile(page, t));
+    await step(page, t, 'the tool in hand is in hand after a reload', async () => {
+      await page.keyboard.press('b');
+      await panel.waitUntilKept(page);
+      await page.reload();
+      await panel.waitForWords(page, /is back as it was at .*; undo begins anew here\./);
+      await tracing.toolInHand(page, 'Brush');
+    });
   });
 
   pageTest('a component that nobody clicked is looked for', async (page, t) => {
@@ -59,7 +66,10 @@ async function twoClicks(page) {
   await stage.learn();
   await stage.click(tracing.insideOf(await trueOutline('femur', 1)));
   await card(page).getByText('Now the tibia').waitFor();
-  // The femur is still being found.
+  // The femur is still being found, and tools outline what the card asks for.
+  await page.keyboard.press('p');
+  assert.equal(await page.getByRole('radio', { name: 'Tibia' }).getAttribute('aria-checked'), 'true');
+  await page.keyboard.press('o');
   await stage.click(tracing.insideOf(await trueOutline('tibia', 1)));
   await card(page).getByRole('button', { name: 'Follow the film' }).waitFor();
   await atRest(page);
@@ -134,6 +144,15 @@ async function checked(page, t) {
   assert((await rivals.getByRole('radio').count()) >= 2, 'the worst has a rival');
   assert.match((await rivals.getByRole('radio').first().getAttribute('aria-label')) ?? '', /^Pose 1, chosen: no joint angles/);
   await screenshot(page, 'check');
+  await page.setViewportSize({ width: 1024, height: 700 });
+  for (const part of ['.check-why', '.check-picture']) await doubt.locator(part).first().waitFor();
+  await screenshot(page, 'check at 1024 x 700');
+  await page.setViewportSize({ width: 1440, height: 900 });
+  // Without the side of the body nobody can tell rivals by their angles.
+  await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
+  await doubt.getByText('Of which side is the knee?').waitFor();
+  await doubt.getByRole('button', { name: 'left' }).click();
+  await doubt.getByText('Of which side is the knee?').waitFor({ state: 'hidden' });
   const before = await panel.shownPose(page);
   assert(before);
   await page.keyboard.press('2');

@@ -1,6 +1,6 @@
 /** How frames and models are shown, and what helps the eye: preprocessing, magnifier, scale bar, ghosts, landscape, space. */
 import assert from 'node:assert/strict';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
@@ -26,6 +26,22 @@ pageTest('seeing', async (page, t) => {
   await step(page, t, 'the models in space, turned by keys', () => space(page));
   await step(page, t, 'the browser remembers', () => remembered(page));
 });
+
+if (!IN_FIREFOX) {
+  pageTest('the theme that the browser asks for, until somebody chooses', async (page) => {
+    const visitIn = async (/** @type {'light' | 'dark'} */ colorScheme, /** @type {'light' | 'dark'} */ shown) => {
+      await page.emulateMedia({ colorScheme });
+      await page.reload();
+      await page.locator(`html[data-theme=${shown}]`).waitFor();
+    };
+    await visitIn('light', 'light');
+    await visitIn('dark', 'dark');
+    await visitIn('light', 'light');
+    await page.keyboard.press('Shift+L');
+    await page.locator('html[data-theme=dark]').waitFor();
+    await visitIn('light', 'dark');
+  });
+}
 
 /** @param {Page} page @param {string} key */
 async function press(page, key) {

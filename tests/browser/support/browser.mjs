@@ -29,7 +29,7 @@ export const ARGUMENTS = [
 /** What Firefox's protocol has no words for is left out there. */
 const CUSTOMARY = process.env.FLUOROPOSE_FIREFOX
   ? {}
-  : /** @type {const} */ ({ reducedMotion: 'reduce', permissions: ['clipboard-read', 'clipboard-write'] });
+  : /** @type {const} */ ({ reducedMotion: 'reduce', colorScheme: 'dark', permissions: ['clipboard-read', 'clipboard-write'] });
 const SCREENSHOTS = fileURLToPath(new URL('../../../target/screenshots/', import.meta.url));
 
 /** Where the runner serves the page, with a slash at its end. */

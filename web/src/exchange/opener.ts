@@ -9,6 +9,7 @@ import { componentIn, takeStudy, type Study } from '../document/study';
 import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
 import { COMPONENT_NAMES, otherThan } from '../terms/component';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
@@ -142,7 +143,7 @@ function offerStated({ store, studio }: Services, framesCame: boolean): void {
   const said = notice?.kind === 'info' ? `${notice.text} ` : '';
   if (notice?.kind === 'error') return;
   const look = () => store.show({ popover: 'calibration' });
-  store.say('info', said + texts.calibrate.stated.offer(count), { label: texts.calibrate.stated.look, take: look });
+  store.say('info', said + later.calibrate.stated.offer(count), { label: later.calibrate.stated.look, take: look });
 }
 
 /** How many values there are that a calibration may begin with. */
@@ -342,17 +343,17 @@ async function openFrames(
     }
   });
   if (entries.length === 0) return;
-  addToDocument(services, distinct(entries));
+  addToDocument(services, distinct(entries), files[0]?.path);
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[]): void {
+function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], path = ''): void {
   const first = store.doc.frames.length;
   store.perform(commands.addFrames(entries));
   // Frames that were here before may be of another film.
   const rate = first === 0 && entries.length > 1 ? (studio.statedGeometry(entries[0]!.id)?.rate ?? null) : null;
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
-  if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: studyName(entries[0]!) }));
+  if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: folderOf(path) ?? studyName(entries[0]!) }));
   if (store.doc.frames.length > first) store.goTo(first);
 }
 
@@ -361,6 +362,12 @@ function sizesAmong(frames: readonly FrameEntry[], came: number): readonly strin
   const [first] = frames;
   const other = came > 0 && frames.find(({ width, height }) => width !== first?.width || height !== first.height);
   return first && other ? [texts.said.sizes(other, first)] : [];
+}
+
+/** The folder that was opened is what a person calls it. */
+function folderOf(path: string): string | null {
+  const parts = path.split('/').filter((part) => part !== '');
+  return parts.length > 1 ? parts[0]! : null;
 }
 
 function studyName(frame: FrameEntry): string {

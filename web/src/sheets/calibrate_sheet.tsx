@@ -4,6 +4,7 @@ import { NOTHING_MEASURED, type MeasuredGrid, type Measuring } from '../document
 import { currentFrame, type State } from '../document/store';
 import { sentenceOf } from '../jobs/services';
 import type { FramePoint } from '../geometry/points';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { DistortionFindings } from './distortion_findings';
@@ -13,7 +14,7 @@ import { NumberField } from '../controls/number_field';
 import { Segments } from '../controls/segments';
 import { StatedDistances } from './stated_geometry';
 
-const said = texts.calibrate;
+const said = { ...texts.calibrate, ...later.calibrate };
 
 interface Lengths {
   /** Between beads, or between the two marks, mm. */

@@ -1,8 +1,9 @@
 import type { MeasuredDistortion, MeasuredGrid } from '../document/measuring';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
-const said = texts.calibrate;
+const said = { ...texts.calibrate, ...later.calibrate };
 
 /** What the beads say of the distortion, and what to do about it. */
 export function DistortionFindings({ grid }: { grid: MeasuredGrid }) {

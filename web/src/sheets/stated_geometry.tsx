@@ -1,9 +1,10 @@
 import { currentFrame, type State } from '../document/store';
 import type { StatedGeometry as Stated } from '../workers/protocol/decode';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
-const said = texts.calibrate.stated;
+const said = later.calibrate.stated;
 
 interface Offer {
   readonly sentence: string;

@@ -2,7 +2,7 @@ import type { ComponentName } from '../terms/component';
 import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
-import { check } from './en_check';
+import { checkKeys } from './en_check';
 import { files } from './en_files';
 import { film } from './en_film';
 import { first } from './en_first';
@@ -23,7 +23,7 @@ export const en = {
   study,
   tracing,
   calibrate,
-  check,
+  check: checkKeys,
   exporting: { title: 'Save and export' },
   files,
   film,

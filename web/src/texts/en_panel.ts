@@ -85,7 +85,7 @@ export const panel = {
     working: 'No picture of the match yet',
     differs: 'differs',
     partial: (milliseconds: string) => `from a part of the outline · ${milliseconds} ms`,
-    clipped: (milliseconds: string) => `cut at the border · ${milliseconds} ms`,
+    clipped: (milliseconds: string) => `larger than the picture · ${milliseconds} ms`,
     found: (milliseconds: string) => `found in ${milliseconds} ms`,
   },
 

@@ -1,15 +1,19 @@
+import { Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useApp } from '../../commands/app';
 import { edit, isInCheck } from '../../commands/check_keys';
 import { knownAxes } from '../../document/axes';
+import { setSide } from '../../document/commands';
 import { currentCell, currentFrame, currentPlace, type State } from '../../document/store';
 import { type Candidate, cellOf, chosenCandidate, type Posed, verdictOf } from '../../document/types';
 import type { Studio } from '../../films/studio';
+import { turnBetween } from '../../geometry/pose_motion';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { doubtsOf } from '../../results/doubts';
 import { cameraOf } from '../../results/keys';
 import type { Motion } from '../../results/motion';
 import { formatNumber } from '../../texts/numbers';
+import { later } from '../../texts/later';
 import { texts } from '../../texts/texts';
 import { drawRival, type RivalScene } from './rival_picture';
 import { otherThan } from '../../terms/component';
@@ -22,12 +26,13 @@ export function CheckCard({ state }: { state: State }) {
   const place = currentPlace(state);
   const doubts = doubtsOf(state.history.present);
   const at = doubts.findIndex((doubt) => doubt.place.frameId === place?.frameId && doubt.place.component === place.component);
-  const words = texts.check;
+  const words = later.check;
   return (
     <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
       <p class="guide-title">{at < 0 ? words.taken : words.title(at + 1, doubts.length)}</p>
       <p class="guide-text check-why">{sentence(verdictOf(result)?.because ?? '')}</p>
       {result.candidates.length > 1 && <Rivals state={state} result={result} />}
+      {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
       {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
       <CheckButtons />
     </section>
@@ -36,7 +41,7 @@ export function CheckCard({ state }: { state: State }) {
 
 function CheckButtons() {
   const { actions, services } = useApp();
-  const words = texts.check;
+  const words = later.check;
   return (
     <div class="check-buttons">
       <button type="button" class="button small primary" aria-keyshortcuts="y" title={words.acceptTitle} onClick={() => actions.run({ name: 'work', command: 'toggle-checked' })}>
@@ -52,6 +57,23 @@ function CheckButtons() {
   );
 }
 
+/** Rivals of a knee are told apart by its angles first of all, and those need the side. */
+function AskSide() {
+  const { store } = useApp().services;
+  return (
+    <p class="guide-text">
+      {later.check.askSide}{' '}
+      {(['left', 'right'] as const).map((side) => (
+        <Fragment key={side}>
+          <button type="button" class="button small" onClick={() => store.perform(setSide(side))}>
+            {texts.top.sides[side]}
+          </button>{' '}
+        </Fragment>
+      ))}
+    </p>
+  );
+}
+
 /** Keys for more there are not. */
 const MOST = 3;
 
@@ -63,11 +85,12 @@ function Rivals({ state, result }: { state: State; result: Posed }) {
   const camera = cameraOf(doc, frame);
   const model = doc.components[component].model?.sha256;
   const window = doc.window ?? (frame && services.studio.frameFacts(frame.id)?.window) ?? null;
+  const chosen = result.candidates[result.chosen]?.pose ?? null;
   const scene = frame && camera && model && window ? { frame, camera, component, model, window } : null;
   return (
-    <div class="check-rivals" role="radiogroup" aria-label={texts.check.rivals}>
+    <div class="check-rivals" role="radiogroup" aria-label={later.check.rivals}>
       {result.candidates.slice(0, MOST).map((candidate, index) => (
-        <Rival key={index} index={index} candidate={candidate} chosen={index === result.chosen} scene={scene} motion={motionWith(state, candidate.pose, services.studio)} />
+        <Rival key={index} index={index} candidate={candidate} chosen={index === result.chosen} beside={chosen === candidate.pose ? null : chosen} scene={scene} motion={motionWith(state, candidate.pose, services.studio)} />
       ))}
     </div>
   );
@@ -77,13 +100,15 @@ interface RivalProps {
   readonly index: number;
   readonly candidate: Candidate;
   readonly chosen: boolean;
+  /** The pose that is chosen; null of that one itself. */
+  readonly beside: PoseNumbers | null;
   readonly scene: RivalScene | null;
   readonly motion: Motion | null;
 }
 
-function Rival({ index, candidate, chosen, scene, motion }: RivalProps) {
+function Rival({ index, candidate, chosen, beside, scene, motion }: RivalProps) {
   const { actions } = useApp();
-  const words = texts.check;
+  const words = later.check;
   const angles = motion && ([motion.flexion, motion.abduction, motion.internal].map((value) => formatNumber(value, 1)) as [string, string, string]);
   const misfit = candidate.judged?.misfit ?? candidate.residual;
   return (
@@ -97,10 +122,11 @@ function Rival({ index, candidate, chosen, scene, motion }: RivalProps) {
       title={words.rivalTitle(index + 1)}
       onClick={() => !chosen && actions.chooseCandidate(index)}
     >
-      <RivalPicture scene={scene} pose={candidate.pose} />
+      <RivalPicture scene={scene} pose={candidate.pose} beside={beside} />
       <span class="check-rival-name">
         <kbd aria-hidden="true">{index + 1}</kbd> {misfit === null ? '' : words.misfit(misfit.toFixed(2))}
       </span>
+      {beside && <span>{words.away(formatNumber(turnBetween(beside, candidate.pose), 0))}</span>}
       {(angles ? words.jointShort(...angles) : []).map((angle) => (
         <span key={angle} class="check-joint">
           {angle}
@@ -112,13 +138,13 @@ function Rival({ index, candidate, chosen, scene, motion }: RivalProps) {
 
 const SIDE = 110;
 
-function RivalPicture({ scene, pose }: { scene: RivalScene | null; pose: PoseNumbers }) {
+function RivalPicture({ scene, pose, beside }: { scene: RivalScene | null; pose: PoseNumbers; beside: PoseNumbers | null }) {
   const { studio } = useApp().services;
   const canvas = useRef<HTMLCanvasElement>(null);
   const { frame, model, window } = scene ?? {};
   useEffect(() => {
-    if (canvas.current && scene) drawRival(canvas.current, studio, scene, pose);
-  }, [studio, frame, model, window, pose]);
+    if (canvas.current && scene) drawRival(canvas.current, studio, scene, pose, beside);
+  }, [studio, frame, model, window, pose, beside]);
   return <canvas ref={canvas} class="check-picture" width={SIDE} height={SIDE} aria-hidden="true" />;
 }
 

@@ -18,17 +18,18 @@ export interface RivalScene {
 /** Around the model, as a part of its size. */
 const MARGIN = 0.2;
 
-/** Draws the part of the frame that a model covers, with its border there. Nothing where it cannot be drawn. */
-export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: RivalScene, pose: PoseNumbers): void {
+/** Draws the part of the frame that a model covers, with its border there, and thinly that of the pose `beside`. Nothing where it cannot be drawn. */
+export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: RivalScene, pose: PoseNumbers, beside: PoseNumbers | null): void {
   const context = canvas.getContext('2d');
   const { frame, camera, component, model, window } = scene;
   if (!context || !studio.holdsFrame(frame.id)) return;
   const whole = scratch(frame);
   if (!whole) return;
   const { rgb, light } = COMPONENT_COLOURS[component];
-  const painted = studio.paintSilhouette(() => whole, model, camera, pose, rgb);
-  if (!painted) return;
-  const border = Array.from(painted.border);
+  const borderAt = (at: PoseNumbers) => Array.from(studio.paintSilhouette(() => whole, model, camera, at, rgb)?.border ?? []);
+  const border = borderAt(pose);
+  const other = beside ? borderAt(beside) : [];
+  if (border.length === 0) return;
   const [left, top, size] = squareAround(border);
   studio.paintFrame(whole, frame.id, window);
   const scale = canvas.width / size;
@@ -36,11 +37,19 @@ export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: Riva
   context.clearRect(0, 0, canvas.width, canvas.height);
   context.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
   context.drawImage(whole.canvas, 0, 0);
+  drawBorder(context, other, 0.75 / scale, BESIDE);
+  drawBorder(context, border, 1.5 / scale, light);
+}
+
+/** What differs from the pose that is chosen is what is to be looked at. */
+const BESIDE = '#fff';
+
+function drawBorder(context: CanvasRenderingContext2D, border: readonly number[], width: number, colour: string): void {
   context.beginPath();
   for (let at = 0; at + 1 < border.length; at += 2) context.lineTo(border[at]!, border[at + 1]!);
   context.closePath();
-  context.lineWidth = 1.5 / scale;
-  context.strokeStyle = light;
+  context.lineWidth = width;
+  context.strokeStyle = colour;
   context.stroke();
 }
 

@@ -2,6 +2,7 @@ import { useLater } from '../../commands/later';
 import { useApp } from '../../commands/app';
 import type { State } from '../../document/store';
 import { cellOf, chosenCandidate, type Doc } from '../../document/types';
+import { motionNeeds } from '../../results/motion';
 import { standingOf } from '../../results/steps';
 import { COMPONENT_NAMES } from '../../terms/component';
 import { texts } from '../../texts/texts';
@@ -20,12 +21,15 @@ function hasBothComponents(doc: Doc): boolean {
 export function JointDock({ state }: { state: State }) {
   const { services } = useApp();
   const { popover, exporting } = state.ui;
-  const { open, height } = state.ui.joint;
+  const { open, height, over } = state.ui.joint;
+  const doc = state.history.present;
   const loaded = useLater(open, load);
-  if (!hasBothComponents(state.history.present)) return null;
+  if (!hasBothComponents(doc)) return null;
   const words = texts.joint;
+  // One line that says what is missing needs no more room than that.
+  const isDrawn = open && motionNeeds(doc) === null && (over !== 'time' || doc.rate !== null);
   return (
-    <section class="joint" aria-label={words.region} style={open ? { height: `${100 * height}vh` } : undefined}>
+    <section class="joint" aria-label={words.region} style={isDrawn ? { height: `${100 * height}vh` } : undefined}>
       <div class="joint-head">
         <button
           type="button"
@@ -40,7 +44,7 @@ export function JointDock({ state }: { state: State }) {
         {open && loaded && <loaded.JointTools state={state} />}
         <button
           type="button"
-          class={open && standingOf(state.history.present).step === 'joint' ? 'button small primary' : 'button small'}
+          class={open && standingOf(doc).step === 'joint' ? 'button small primary' : 'button small'}
           title={words.saveTitle}
           aria-haspopup="dialog"
           aria-expanded={popover === 'export'}

@@ -1,0 +1,21 @@
+/** English of going through doubtful poses: with the card. */
+export const check = {
+  region: 'A doubtful pose',
+  title: (at: number, of: number) => `Doubtful ${at} of ${of}`,
+  taken: 'Another pose taken',
+  rivals: 'Poses to choose from',
+  rival: (number: number, chosen: boolean) => `Pose ${number}${chosen ? ', chosen' : ''}`,
+  rivalTitle: (number: number) => `Take this pose (${number})`,
+  misfit: (pixels: string) => `${pixels} px`,
+  joint: (flexion: string, abduction: string, internal: string) => `flexion ${flexion}°, abduction ${abduction}°, internal rotation ${internal}°`,
+  jointShort: (flexion: string, abduction: string, internal: string) => [`flex ${flexion}°`, `abd ${abduction}°`, `int ${internal}°`],
+  noJoint: 'no joint angles: the other component, the side of the body or the axes are not known',
+  accept: 'Accept',
+  acceptTitle: 'It is right: mark it as checked and go on to the next (Y)',
+  edit: 'Edit',
+  editTitle: 'Change the outline, or the pose by hand (E)',
+  next: 'Later',
+  nextTitle: 'Leave it for later and go on to the next (N)',
+  away: (degrees: string) => `${degrees}° away`,
+  askSide: 'Of which side is the knee? Joint angles then stand under the poses.',
+};
