@@ -106,7 +106,7 @@ async function sameFilm(film, written, t) {
   const away = shown.map((picture) => wanted.map((other) => greyBetween(picture, other, height)));
   t.diagnostic(`grey values between film and pictures: ${away.map((row, index) => row[index].toFixed(2)).join(' ')}`);
   away.forEach((row, index) => {
-    assert(row[index] < SAME_GREY, `frame ${index + 1} is ${row[index]} grey values away from the command's`);
+    assert(row[index] < SAME_GREY, `frame ${index + 1} is ${row[index]} grey values away from the command's, whose others are ${row.map((one) => one.toFixed(2)).join(' ')} away`);
     row.forEach((other, at) => assert(at === index || other > 2 * row[index], `frame ${index + 1} is as near to the command's ${at + 1}: ${other}`));
   });
 }

@@ -34,6 +34,8 @@ async function drawn({ address, count }) {
     const seen = new Promise((go) => (video.onseeked = go));
     video.currentTime = ((index + 0.5) / count) * video.duration;
     await seen;
+    // What was sought may be painted a little later than it is said to be there.
+    await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
     canvas.getContext('2d')?.drawImage(video, 0, 0);
     pictures.push(canvas.toDataURL());
   }
