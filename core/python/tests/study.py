@@ -15,11 +15,11 @@ DEMO = Path(os.environ.get("FLUOROPOSE_DEMO", "demo"))
 STUDIES = Path(os.environ.get("FLUOROPOSE_STUDIES", "studies"))
 
 
-def run(*words: object) -> str:
-    """Runs the command that came with the package; what it printed."""
+def run(*words: object, doubtful: bool = False) -> str:
+    """Runs the command that came with the package; what it printed. All it finds may be doubtful where that is said."""
     command = [sys.executable, "-m", "fluoropose", *map(str, words)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
+    if done.returncode not in ((0, 3) if doubtful else (0,)):
         raise AssertionError(f"{command}: {done.returncode}: {done.stderr}")
     return done.stdout
 

@@ -118,7 +118,8 @@ class RealStudies(unittest.TestCase):
                 given = ("--model", model, "--calibration", folder / study["calibration"])
                 run("library", *given, "--out", library)
                 found = ("--masks", masks, "--method", "refined", "--out", jts)
-                run("pose", *given, "--library", library, *found)
+                # A tray without its femur may be its mirror image in every frame.
+                run("pose", *given, "--library", library, *found, doubtful=True)
                 ours = fp.estimate_all(fp.read_frames(masks), fp.Model.from_file(model), camera)
                 np.testing.assert_array_equal([one.pose.numbers for one in ours], fp.read_poses(jts))
 
