@@ -61,6 +61,7 @@ impl<'m> Orientation<'m> {
     }
 
     /// As [`super::link`] left it.
+    #[cfg(feature = "alloc")]
     pub(super) fn of(parents: &'m mut [u32]) -> Self {
         Self { parents }
     }
