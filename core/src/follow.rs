@@ -71,7 +71,7 @@ pub use joint_search::JointSearch;
 pub use look::{Looked, Missing, look};
 pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};
-pub use near::{NEAR, near_poses, near_scored};
+pub use near::{NEAR, near_poses};
 pub use search_order::{TRIES, frames_to_search, run_to_search};
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};

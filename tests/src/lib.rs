@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::OwnedModel;
+use fluoropose::pose::Pose;
 use fluoropose_laboratory::files::owned;
 use fluoropose_phantom::implant::{self, Parameters, Triangles};
 
@@ -88,6 +89,19 @@ pub fn tibia() -> Triangles {
 /// A built-in implant with its edges, as it is drawn wherever poses are found.
 pub fn surface(triangles: Triangles) -> OwnedModel {
     owned(triangles).expect("built-in implants are valid")
+}
+
+/// A model with its file's axes turned by a rigid motion, mm.
+///
+/// # Panics
+/// Never: it is as valid as before.
+pub fn turned(model: &OwnedModel, by: &Pose) -> OwnedModel {
+    let model = model.as_model();
+    let vertices = model.vertices().iter();
+    let vertices =
+        vertices.flat_map(|vertex| by.transform(&vertex.map(f64::from)).map(|x| x as f32));
+    let triangles = model.triangles().as_flattened().to_vec();
+    OwnedModel::new(vertices.collect(), triangles).expect("as valid as before")
 }
 
 /// A mesh of the core over a built-in implant, without edges.

@@ -7,7 +7,7 @@ use heapless::Vec;
 
 use super::frame_pose::{FramePose, From, refined_on_frame};
 use super::in_joint::{BENDS, InJoint, Limb};
-use super::near::near_scored;
+use super::near::near_poses;
 use super::subject::Subject;
 use crate::image::frame::Grey;
 use crate::mesh::anatomy::KneeComponent;
@@ -96,7 +96,7 @@ impl JointSearch {
         let [fx, fy] = subject.camera.focal();
         let reach_px = REACH_MM * fx.max(fy) / depth.max(1.0);
         // Behind the camera there is none.
-        let near = near_scored(subject, image, expected, reach_px, self.step, memory);
+        let near = near_poses(subject, image, expected, reach_px, self.step, memory);
         for place in near.unwrap_or_default() {
             keep(&mut self.places, place, |(score, _)| -score);
         }

@@ -139,7 +139,10 @@ impl Search<'_> {
         let (subject, image, step) = (self.subject, self.image, self.usual.step);
         let expected = &self.expected.pose;
         let near = near_poses(subject, image, expected, reach, step, memory).unwrap_or_default();
-        let near = near.iter().take(REFINED).map(|pose| (*pose, From::Far));
+        let near = near
+            .iter()
+            .take(REFINED)
+            .map(|(_, pose)| (*pose, From::Far));
         let beside = beside(expected, &self.middle, BESIDE_PART).map(|pose| (pose, From::Near));
         let mut best = first;
         // Where the outline has the strongest edges first: most misses are ways in the image plane.

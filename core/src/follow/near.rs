@@ -46,28 +46,12 @@ struct Place {
     shift: [f64; 2],
 }
 
-/// The poses near an expected one whose outlines have the strongest edges, best first: within `reach_px` pixels, 12
-/// degrees in the image plane and 5 out of it. `step` is the usual step of grey values.
+/// The poses near an expected one whose outlines have the strongest edges, best first, each with the mean step along its outline in
+/// usual ones: within `reach_px` pixels, 12 degrees in the image plane and 5 out of it. `step` is the usual step of grey values.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn at the pose.
 pub fn near_poses(
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    expected: &Pose,
-    reach_px: f64,
-    step: f64,
-    memory: &mut RefineMemory<'_>,
-) -> Result<Vec<Pose, NEAR>, RefineError> {
-    let scored = near_scored(subject, image, expected, reach_px, step, memory)?;
-    Ok(scored.into_iter().map(|(_, pose)| pose).collect())
-}
-
-/// The same with the mean step along each outline, in usual ones.
-///
-/// # Errors
-/// As of [`near_poses`].
-pub fn near_scored(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     expected: &Pose,

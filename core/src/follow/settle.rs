@@ -26,7 +26,7 @@ pub fn settled(
     let step = found.contrast.step;
     let usual = Usual::of(found);
     let near = near_poses(subject, image, &found.pose, NEAR_PX, step, memory).unwrap_or_default();
-    let far = near.iter().map(|&pose| (pose, From::Far));
+    let far = near.iter().map(|&(_, pose)| (pose, From::Far));
     let around = PARTS
         .into_iter()
         .flat_map(|part| beside(&found.pose, &middle, part))

@@ -9,21 +9,11 @@ use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose_laboratory::files::read_model;
-use fluoropose_tests::{femur, study, surface, tibia};
+use fluoropose_tests::{femur, study, surface, tibia, turned};
 
 fn axes(mesh: &Mesh<'_>, component: KneeComponent) -> AnatomicalAxes {
     let planes = symmetry_planes(mesh);
     anatomical_axes(mesh, &planes, component).expect("the shape tells")
-}
-
-/// The model with its file's axes turned.
-fn turned(model: &OwnedModel, by: &Pose) -> OwnedModel {
-    let model = model.as_model();
-    let vertices = model.vertices().iter();
-    let vertices =
-        vertices.flat_map(|vertex| by.transform(&vertex.map(f64::from)).map(|x| x as f32));
-    let triangles = model.triangles().as_flattened().to_vec();
-    OwnedModel::new(vertices.collect(), triangles).expect("as valid as before")
 }
 
 /// Every rotation that permutes the axes.

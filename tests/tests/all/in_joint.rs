@@ -14,7 +14,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::Side;
-use fluoropose_tests::{femur, surface, tibia};
+use fluoropose_tests::{femur, surface, tibia, turned};
 
 use crate::track::{SIDE, frame};
 
@@ -32,21 +32,13 @@ fn limb(model: &OwnedModel, component: KneeComponent) -> Limb<'_> {
 
 /// Femur and tray, the same with their files' axes turned by `by`, and a knee that bends.
 fn knee(by: &Pose) -> ([OwnedModel; 2], Vec<[Pose; 2]>) {
-    let turned = |model: OwnedModel| {
-        let model = model.as_model();
-        let vertices = model.vertices().iter();
-        let vertices =
-            vertices.flat_map(|vertex| by.transform(&vertex.map(f64::from)).map(|x| x as f32));
-        let triangles = model.triangles().as_flattened().to_vec();
-        OwnedModel::new(vertices.collect(), triangles).expect("as valid as before")
-    };
     let film: Vec<Position> = deep_knee_bend(24, Side::Left, &femur(), 70.0, 1);
     let back = by.inverse();
     let poses = film.iter().map(|position| {
         [position.femur, position.tibia].map(|pose| Pose::from(pose).compose(&back))
     });
     (
-        [femur(), tibia()].map(|part| turned(surface(part))),
+        [femur(), tibia()].map(|part| turned(&surface(part), by)),
         poses.collect(),
     )
 }
