@@ -141,7 +141,8 @@ impl Edge {
         let down = self.down.max(1);
         let (whole, part) = (self.right.div_euclid(down), self.right.rem_euclid(down));
         let [whole, part, down] = [whole, part, down].map(i64::from);
-        let centre = rows.start as i64 * ONE + HALF - i64::from(self.from.row);
+        // An edge that crosses no row may begin below the one that is named.
+        let centre = (rows.start as i64 * ONE + HALF - i64::from(self.from.row)).max(0);
         let (beyond, rest) = quotient((part * centre) as u64, down as u64);
         // In units of 1/4096 pixel, and that many parts of one as `down` is.
         let place = i64::from(self.from.column) - HALF + whole * centre + beyond as i64;
@@ -222,6 +223,25 @@ fn sorted_by_row([a, b, c]: [FixedPoint; 3]) -> [FixedPoint; 3] {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn what_lies_outside_the_rows_of_a_frame_crosses_none() {
+        let whole = MAX_COORDINATE as i32 * ONE as i32;
+        for at in [-whole, -9000, -5, 4096 * 64, whole - 4_i32] {
+            for column in [-whole, -1, 0, 70_000, whole] {
+                let corner = |right: i32, down: i32| FixedPoint {
+                    column: column.saturating_add(right).clamp(-whole, whole),
+                    row: (at + down).min(whole),
+                };
+                let corners = [corner(0, 0), corner(5, 1), corner(-whole, 4)];
+                triangle_spans(corners, 64, |row, _, _| panic!("row {row}"));
+                for ends in [[corners[0], corners[1]], [corners[1], corners[2]]] {
+                    let rows = rows_between(ends, 64);
+                    assert_eq!(Edge::new(ends).columns(rows).count(), 0, "{ends:?}");
+                }
+            }
+        }
+    }
 
     proptest! {
         #[test]
