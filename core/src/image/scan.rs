@@ -227,13 +227,17 @@ mod tests {
     #[test]
     fn what_lies_outside_the_rows_of_a_frame_crosses_none() {
         let whole = MAX_COORDINATE as i32 * ONE as i32;
-        for at in [-whole, -9000, -5, 4096 * 64, whole - 3_i32] {
+        for at in [-whole, -9000, -5, ONE as i32 * 64, whole - 3] {
             for column in [-whole, -1, 0, 70_000, whole] {
-                let corner = |right: i32, down: i32| FixedPoint {
-                    column: column.saturating_add(right).clamp(-whole, whole),
-                    row: (at + down).min(whole),
+                let corner = |column: i32, down: i32| FixedPoint {
+                    column: column.clamp(-whole, whole),
+                    row: at + down,
                 };
-                let corners = [corner(0, 0), corner(5, 1), corner(-whole, 3)];
+                let corners = [
+                    corner(column, 0),
+                    corner(column + 5, 1),
+                    corner(column - whole, 3),
+                ];
                 triangle_spans(corners, 64, |row, _, _| panic!("row {row}"));
                 for ends in [[corners[0], corners[1]], [corners[1], corners[2]]] {
                     let rows = rows_between(ends, 64);
