@@ -8,6 +8,7 @@ mod journal;
 mod judge;
 mod metal;
 mod part;
+mod partner;
 mod record;
 mod request;
 mod run;

@@ -5,8 +5,9 @@ use fluoropose::follow::{Anchor, frames_to_search};
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 use rayon::prelude::*;
 
-use super::anchors::{begin_beside, begin_in_joint, fixed_poses, found_in, given, or_in_joint};
+use super::anchors::{fixed_poses, found_in, given};
 use super::part::Part;
+use super::partner::{begin_beside, begin_in_joint, or_in_joint};
 use super::run::Run;
 use crate::files::{Role, grey};
 use crate::options::most;
