@@ -1,34 +1,33 @@
-//! A component looked for in whole frames, where nobody points at it.
+//! A component looked for in frames where nobody points at it: in a whole frame, or where its joint leaves it beside the other one.
+
+mod other;
+mod walk;
 
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::{Component, FinderBuffers};
-use fluoropose::follow::{self, Subject};
-use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::follow::{FramePose, InJoint, JointSearch, Subject};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
-use fluoropose::pose::EulerPose;
-use fluoropose::refine::{ImageTarget, Polarity};
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::OneClickBuffers;
 use fluoropose_tracing::seeds::seeds_needed;
 use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::prelude::*;
 
+use self::other::{Beside, Other, limb_of};
+use self::walk::Walk;
 use crate::film::film_model;
-use crate::hidden::{hide, with_mask};
+use crate::hidden::with_mask;
 use crate::matcher::OpenLibrary;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
-use fluoropose_page::pose_numbers::to_numbers;
-
-/// Frames of a film of `frames` in which a component is looked for that nobody pointed at, in this order.
-#[wasm_bindgen(js_name = framesToSearch)]
-pub fn frames_to_search(frames: usize) -> Vec<usize> {
-    follow::frames_to_search(&(0..frames)).to_vec()
-}
+use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};
 
 /// Looks for a component in one frame after the other, in steps between which a worker can be called off.
 #[wasm_bindgen]
@@ -39,11 +38,22 @@ pub struct FrameSearch {
     camera: Camera,
     polarity: Polarity,
     film: Option<FilmModel>,
-    /// The joint's other component: its middle (mm, in the camera's frame), and the pixels that are its own.
-    beside: Option<(Vector3, Vec<Word>)>,
+    /// Which component it is and its axes, where its shape tells them.
+    limb: Option<(KneeComponent, AnatomicalAxes)>,
+    /// The joint's other component, and where it is in the frame.
+    other: Option<Other>,
+    beside: Option<Beside>,
     finder: FinderBuffers,
     own: OneClickBuffers,
-    search: Option<WholeFrame>,
+    refine: RefineBuffers,
+    search: Option<Search>,
+    walk: Option<Walk>,
+}
+
+/// What a frame is searched by.
+enum Search {
+    Whole(Box<WholeFrame>),
+    Joint(Box<JointSearch>),
 }
 
 #[wasm_bindgen]
@@ -60,7 +70,6 @@ impl FrameSearch {
         calibration: &str,
         width: u32,
         height: u32,
-        bright_implant: bool,
     ) -> Result<FrameSearch, JsError> {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         Ok(Self {
@@ -68,16 +77,66 @@ impl FrameSearch {
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
             model,
             camera: camera(calibration, width, height)?,
-            polarity: match bright_implant {
-                true => Polarity::BrightImplant,
-                false => Polarity::DarkImplant,
-            },
+            polarity: Polarity::DarkImplant,
             film: None,
+            limb: None,
+            other: None,
             beside: None,
             finder: FinderBuffers::default(),
             own: OneClickBuffers::default(),
+            refine: RefineBuffers::default(),
             search: None,
+            walk: None,
         })
+    }
+
+    /// Says whether metal is brighter than what surrounds it, from now on.
+    #[wasm_bindgen(js_name = showBright)]
+    pub fn show_bright(&mut self, bright: bool) {
+        self.polarity = match bright {
+            true => Polarity::BrightImplant,
+            false => Polarity::DarkImplant,
+        };
+    }
+
+    /// Says which component it is, and its axes (nine numbers, as `axes_from` takes them), where its shape tells them, and whether they
+    /// tell the front.
+    ///
+    /// # Errors
+    /// A sentence where axes are no right-handed frame.
+    #[wasm_bindgen(js_name = knowLimb)]
+    pub fn know_limb(
+        &mut self,
+        femoral: bool,
+        axes: &[f64],
+        front_is_known: bool,
+    ) -> Result<(), JsError> {
+        let component = match femoral {
+            true => KneeComponent::Femur,
+            false => KneeComponent::Tibia,
+        };
+        self.limb = Some((component, anatomical(axes, front_is_known)?));
+        Ok(())
+    }
+
+    /// The same of the joint's other component, with its model; without axes it only hides what lies behind it.
+    ///
+    /// # Errors
+    /// The core's sentence about the model, and that of `knowLimb`.
+    #[wasm_bindgen(js_name = knowOther)]
+    pub fn know_other(
+        &mut self,
+        vertices: Vec<f32>,
+        triangles: Vec<u32>,
+        axes: &[f64],
+        front_is_known: bool,
+    ) -> Result<(), JsError> {
+        let axes = match axes {
+            [] => None,
+            axes => Some(anatomical(axes, front_is_known)?),
+        };
+        self.other = Some(Other::new(vertices, triangles, axes)?);
+        Ok(())
     }
 
     /// What the film makes of the component, as `FilmFacts.model` gives it, or nothing of it.
@@ -90,21 +149,35 @@ impl FrameSearch {
         Ok(())
     }
 
-    /// Says where the joint's other component is in the next frame: its middle (x, y, z in mm, in the camera's frame) and its outline
-    /// (columns and rows by turns). Without a middle it is not known.
+    /// Says where the joint's other component is in the next frame (the six numbers of its pose), and whether its joint tells where this one
+    /// is. Without numbers it is not known.
     ///
     /// # Errors
-    /// The core's sentence about the outline.
-    pub fn beside(&mut self, middle: &[f64], outline: &[f64]) -> Result<(), JsError> {
-        self.beside = match *middle {
-            [x, y, z] => {
-                let mut words = vec![0; words_needed(self.camera.width(), self.camera.height())];
-                hide(outline, &self.camera, &mut words)?;
-                Some(([x, y, z], words))
-            }
-            _ => None,
-        };
+    /// A sentence about the numbers, or where nothing is known of the other one, and the core's about a pose that cannot be drawn.
+    pub fn beside(&mut self, pose: &[f64], in_joint: bool) -> Result<(), JsError> {
+        self.beside = None;
+        if !pose.is_empty() {
+            let pose = Pose::from(from_numbers(pose)?);
+            let lack = || JsError::new("Nothing is known of the joint's other component");
+            let other = self.other.as_mut().ok_or_else(lack)?;
+            self.beside = Some(other.at(pose, in_joint, &self.camera)?);
+        }
         Ok(())
+    }
+
+    /// Whether metal is brighter than what surrounds it, by a frame in which the component's pose is known.
+    ///
+    /// # Errors
+    /// A sentence about the numbers, and the core's about a pose that cannot be drawn.
+    #[wasm_bindgen(js_name = isBright)]
+    pub fn is_bright(&mut self, frame: &FrameImage, pose: &[f64]) -> Result<bool, JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        let model = self.model.as_model();
+        let mut memory = self.refine.borrow(&model, &self.camera);
+        let told = frame.look(|frame| {
+            polarity_at(&model, &self.camera, &pose, frame, &mut memory).map_err(sentence)
+        })?;
+        Ok(told == Polarity::BrightImplant)
     }
 
     /// The next part of the search of a frame, the same until it is done; `fresh` begins with it. Gives whether there is more to do.
@@ -120,29 +193,45 @@ impl FrameSearch {
         };
         let subject = Subject::new(&model, &self.planes, &self.camera);
         let (camera, polarity, kept) = (&self.camera, self.polarity, &mut self.search);
-        let (finder, own) = (&mut self.finder, &mut self.own);
-        let (middle, hidden) = match &self.beside {
-            Some((middle, words)) => (Some(*middle), Some(words.as_slice())),
-            None => (None, None),
-        };
+        let (finder, own, refine) = (&mut self.finder, &mut self.own, &mut self.refine);
+        let (other, beside) = (self.other.as_ref(), self.beside.as_ref());
+        let limb = limb_of(&self.model, self.limb);
+        let joint = beside.filter(|beside| beside.in_joint);
+        let joint =
+            joint.and_then(|beside| Some(InJoint::beside(&other?.limb(limb?)?, &beside.pose)));
         let mut look = |image: &ImageTarget<'_>| {
             if fresh || kept.is_none() {
-                let mut sums = vec![0.0; seeds_needed(camera)];
-                let begun = WholeFrame::new(image, &component, camera, middle, &mut sums);
-                *kept = Some(begun.map_err(sentence)?);
+                *kept = Some(match (&joint, &limb, beside) {
+                    (Some(joint), Some(limb), _) => {
+                        Search::Joint(Box::new(JointSearch::new(image, joint, limb)))
+                    }
+                    (_, _, Some(beside)) if beside.in_joint => return Ok(false),
+                    _ => {
+                        let mut sums = vec![0.0; seeds_needed(camera)];
+                        let middle: Option<Vector3> = beside.map(|beside| beside.middle);
+                        let begun = WholeFrame::new(image, &component, camera, middle, &mut sums);
+                        Search::Whole(Box::new(begun.map_err(sentence)?))
+                    }
+                });
             }
-            let Some(search) = kept else {
-                return Ok(false);
-            };
-            let Some(needs) = search.needs(camera) else {
-                return Ok(false);
-            };
-            let finder = finder.borrow(&component, camera, Kernels::PORTABLE);
-            let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
-            search
-                .step(&subject, image, &component, &mut memory)
-                .map_err(sentence)
+            match kept {
+                None => Ok(false),
+                Some(Search::Joint(search)) => {
+                    Ok(search.step(&subject, image, &mut refine.borrow(&model, camera)))
+                }
+                Some(Search::Whole(search)) => {
+                    let Some(needs) = search.needs(camera) else {
+                        return Ok(false);
+                    };
+                    let finder = finder.borrow(&component, camera, Kernels::PORTABLE);
+                    let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
+                    search
+                        .step(&subject, image, &component, &mut memory)
+                        .map_err(sentence)
+                }
+            }
         };
+        let hidden = beside.map(|beside| beside.hidden.as_slice());
         frame.look(|frame| {
             with_mask(hidden, camera, |unknown| {
                 look(&ImageTarget {
@@ -158,20 +247,110 @@ impl FrameSearch {
     /// The part of a frame's search that is done, 0 to 1.
     #[wasm_bindgen(getter)]
     pub fn progress(&self) -> f64 {
-        self.search.as_ref().map_or(0.0, WholeFrame::progress)
+        match &self.search {
+            None => 0.0,
+            Some(Search::Whole(search)) => search.progress(),
+            Some(Search::Joint(search)) => search.progress(),
+        }
     }
 
-    /// Column and row of a click that leads to what was found.
+    /// Column and row of a place in what was found.
     #[wasm_bindgen(getter)]
     pub fn place(&self) -> Option<Vec<f64>> {
-        let place = self.search.as_ref()?.found()?.place;
+        let place = match self.search.as_ref()? {
+            Search::Whole(search) => search.found()?.place,
+            Search::Joint(search) => {
+                let middle = self.model.as_model().bounds().centre;
+                self.camera
+                    .project(&search.found()?.pose.transform(&middle))?
+            }
+        };
         Some(vec![place.column, place.row])
     }
 
     /// Six numbers of the pose that was found.
     #[wasm_bindgen(getter)]
     pub fn pose(&self) -> Option<Vec<f64>> {
-        let pose = self.search.as_ref()?.found()?.pose.pose;
-        Some(to_numbers(&EulerPose::from(pose)).to_vec())
+        Some(to_numbers(&EulerPose::from(self.found()?.pose)).to_vec())
     }
+
+    /// By what poses that were found are compared, the greatest first.
+    #[wasm_bindgen(getter)]
+    pub fn score(&self) -> Option<f64> {
+        Some(self.found()?.score())
+    }
+
+    /// Begins to follow the component from a frame in which its pose (six numbers) is known to some frames before and after it, in a film
+    /// of `frames`.
+    ///
+    /// # Errors
+    /// A sentence about the numbers.
+    #[wasm_bindgen(js_name = beginWalk)]
+    pub fn begin_walk(&mut self, frame: usize, pose: &[f64], frames: usize) -> Result<(), JsError> {
+        self.walk = Some(Walk::new(frame, from_numbers(pose)?.into(), frames));
+        Ok(())
+    }
+
+    /// The frame that is to be looked at next; nothing where all are.
+    #[wasm_bindgen(js_name = walkWanted)]
+    pub fn walk_wanted(&self) -> Option<usize> {
+        self.walk.as_ref()?.wanted()
+    }
+
+    /// Looks at the frame that was asked for.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose that was given and cannot be drawn.
+    #[wasm_bindgen(js_name = walkTake)]
+    pub fn walk_take(&mut self, frame: &FrameImage) -> Result<(), JsError> {
+        let Some(walk) = &mut self.walk else {
+            return Ok(());
+        };
+        let model = self.model.as_model();
+        let subject = Subject::new(&model, &self.planes, &self.camera);
+        let mut memory = self.refine.borrow(&model, &self.camera);
+        let (polarity, film) = (self.polarity, self.film);
+        frame.look(|frame| {
+            let image = ImageTarget {
+                frame,
+                unknown: None,
+                polarity,
+                film,
+            };
+            walk.take(&subject, &image, &mut memory).map_err(sentence)
+        })
+    }
+
+    /// The first and the last frame in which it was followed, each with the six numbers of its pose: seven numbers, not finite where there
+    /// is none.
+    #[wasm_bindgen(js_name = walkEnds)]
+    pub fn walk_ends(&self) -> Vec<f64> {
+        let ends = self.walk.as_ref().map_or([None, None], Walk::ends);
+        let numbers = |end: Option<(usize, Pose)>| match end {
+            None => vec![f64::NAN; 7],
+            Some((frame, pose)) => {
+                let numbers = to_numbers(&EulerPose::from(pose));
+                [frame as f64].into_iter().chain(numbers).collect()
+            }
+        };
+        ends.into_iter().flat_map(numbers).collect()
+    }
+}
+
+impl FrameSearch {
+    fn found(&self) -> Option<&FramePose> {
+        match self.search.as_ref()? {
+            Search::Whole(search) => search.found().map(|found| &found.pose),
+            Search::Joint(search) => search.found(),
+        }
+    }
+}
+
+/// Axes as a page has them.
+fn anatomical(axes: &[f64], front_is_known: bool) -> Result<AnatomicalAxes, JsError> {
+    Ok(AnatomicalAxes {
+        model_from_field: axes_from(axes)?,
+        front_is_known,
+        are_files_own: false,
+    })
 }

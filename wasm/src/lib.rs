@@ -22,6 +22,7 @@ mod joint_report;
 mod library;
 mod library_check;
 mod matcher;
+mod search_plan;
 mod working_model;
 
 pub use anatomy::{ShapeAxes, shape_axes, shape_component};
@@ -32,7 +33,7 @@ pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask
 pub use film::{FilmFacts, FilmStudy, stated_film_words};
 pub use follower::{FilmFollower, FilmReader, FollowedFilm};
 pub use found::Match;
-pub use frame_search::{FrameSearch, frames_to_search};
+pub use frame_search::FrameSearch;
 pub use joint::KneeJoint;
 pub use joint_report::{JointReport, write_jtak, write_jtap, write_tra};
 pub use library::{LibraryBuilder, LibraryViews};
@@ -41,3 +42,4 @@ pub use matcher::{
     Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,
     OneClickAnswer, ViewPose,
 };
+pub use search_plan::{SearchPlan, SearchStep};

@@ -12,10 +12,11 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
 use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
+use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::{SymmetryPlane, is_nearly_symmetric, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
-use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
+use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{
     CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
     film_profiles, fit_at, polarity_at, refine, refine_traced,
@@ -26,6 +27,9 @@ use wasm_bindgen::JsError;
 
 use crate::found::{Uncertainty, uncertainty};
 use fluoropose_page::error::sentence;
+
+/// Mirror images nearer to another pose than this are that one, degrees.
+const SAME_DEG: f64 = 1.0;
 
 /// A pose that explains an outline.
 #[derive(Clone, Copy)]
@@ -299,6 +303,44 @@ impl WorkingModel {
         let (seen, options) = ((view.camera, image), RefineOptions::default());
         let found = correct_candidates(&model, seen, planes, &known, options, &mut memory);
         Ok(found.map_err(sentence)?.into_iter().collect())
+    }
+
+    /// A pose that was found on a frame, refined there or put where its film puts the edges, and its mirror images.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined.
+    pub(crate) fn with_mirror_images(
+        &mut self,
+        pose: &Pose,
+        view: CameraView<'_>,
+    ) -> Result<Vec<Candidate>, JsError> {
+        if matches!(view.target, Target::Image(image) if image.film.is_some()) {
+            return self.correct(&[Refined::at(*pose)], view);
+        }
+        let model = self.owned.as_model();
+        let planes = planes_of(&mut self.planes, &model).to_vec();
+        let options = RefineOptions::default();
+        let own = self.refine_from(pose, view, options)?;
+        let mut all = vec![own];
+        for plane in planes {
+            let start = mirror_pose(&own.pose, &plane);
+            let is_new = |one: &Refined| {
+                let apart =
+                    |known: &Refined| geodesic_deg(&known.pose.rotation, &one.pose.rotation);
+                all.iter().all(|known| apart(known) >= SAME_DEG)
+            };
+            // One that leads nowhere is no rival.
+            let mirrored = self.refine_from(&start, view, options).ok();
+            all.extend(mirrored.filter(is_new));
+        }
+        let assessed = all.iter().map(|refined| {
+            let assessed = self.assess(refined, view)?;
+            Ok(Candidate {
+                fit: assessed.fit,
+                ..candidate_of(refined)
+            })
+        });
+        assessed.collect()
     }
 
     /// Whether its outlines hardly tell it from its mirror image.

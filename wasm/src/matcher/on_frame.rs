@@ -229,6 +229,17 @@ impl Matcher {
         Ok(answer)
     }
 
+    /// A pose that was found on a frame, refined there, and its mirror images.
+    pub(super) fn given_pose(
+        &mut self,
+        pose: &Pose,
+        seen: &Seen<'_>,
+    ) -> Result<Vec<OnFrame>, JsError> {
+        let model = model_of(&mut self.model)?;
+        let found = seen.look(|view| model.with_mirror_images(pose, view))?;
+        Ok(found.iter().filter_map(|one| on_frame(one, None)).collect())
+    }
+
     /// Poses around one that leaves more than is usual on its film, or of which nothing tells that ([`look_beyond`]).
     pub(super) fn around(
         &mut self,

@@ -7,6 +7,7 @@ use fluoropose::finder::{Component, Verdict};
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
+use fluoropose::pose::Pose;
 use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
@@ -25,6 +26,7 @@ use crate::hidden::{hide, with_mask};
 use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::from_numbers;
 
 /// An answer whose edges are weaker than this part of the best's is no rival.
 const RIVAL_STRENGTH: f64 = 0.75;
@@ -53,6 +55,8 @@ pub struct OneClick {
     prompt: Prompt,
     excluded: Option<Vec<Word>>,
     work: Option<Work>,
+    /// A pose that was found before, refined, and its mirror images.
+    given: Vec<OnFrame>,
     buffers: OneClickBuffers,
     /// What the film makes of the component, and the largest usual misfit on it, pixels.
     known: Option<FilmModel>,
@@ -91,6 +95,7 @@ impl OneClick {
             prompt,
             excluded: None,
             work: None,
+            given: Vec::new(),
             buffers: OneClickBuffers::default(),
             known: None,
             usual: None,
@@ -179,6 +184,17 @@ impl OneClick {
         })
     }
 
+    /// Takes a pose (six numbers) that was found before instead of looking for one: what came of it is that and its mirror images.
+    ///
+    /// # Errors
+    /// A sentence about the numbers, and the core's where it cannot be refined.
+    #[wasm_bindgen(js_name = takePose)]
+    pub fn take_pose(&mut self, matcher: &mut Matcher, pose: &[f64]) -> Result<(), JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        self.given = matcher.given_pose(&pose, &self.seen())?;
+        Ok(())
+    }
+
     /// One step without library and model: the region and its edges alone.
     ///
     /// # Errors
@@ -219,15 +235,9 @@ impl OneClick {
         let answers = self.work.as_ref().map_or(&[][..], Work::answers);
         let strongest = answers.first().map_or(0.0, |best| best.score);
         let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
-        let mut answers: Vec<OnFrame> = answers.iter().filter(rivals).map(OnFrame::from).collect();
-        let seen = Seen {
-            frame: &self.film,
-            camera: &self.camera,
-            polarity: self.polarity,
-            unknown: self.excluded.as_deref(),
-            film: self.known,
-            usual: self.usual,
-        };
+        let found = answers.iter().filter(rivals).map(OnFrame::from);
+        let mut answers: Vec<OnFrame> = self.given.iter().copied().chain(found).collect();
+        let seen = self.seen();
         let among = |answers: &[OnFrame]| {
             let contenders: Vec<Contender> = answers.iter().map(contender).collect();
             Chosen::among(&contenders, around)
@@ -273,6 +283,17 @@ impl OneClick {
 }
 
 impl OneClick {
+    fn seen(&self) -> Seen<'_> {
+        Seen {
+            frame: &self.film,
+            camera: &self.camera,
+            polarity: self.polarity,
+            unknown: self.excluded.as_deref(),
+            film: self.known,
+            usual: self.usual,
+        }
+    }
+
     fn alone<T>(
         &mut self,
         with: impl FnOnce(&mut Work, &Observation<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,

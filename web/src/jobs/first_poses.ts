@@ -1,30 +1,53 @@
 import type { Place } from '../document/command';
-import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
-import { middleOf } from '../geometry/mesh_middle';
+import { setOutline } from '../document/outlines';
+import { cellOf, chosenCandidate } from '../document/types';
 import { type FramePoint, framePoint } from '../geometry/points';
-import { inCamera } from '../geometry/pose_motion';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 import { cameraOf } from '../results/keys';
-import { otherThan, type ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
-import type { Beside, FollowProtocol } from '../workers/protocol/follow';
+import type { Discovery, FindInput, Known, Member, PlanState, PlanStep } from '../workers/protocol/first_poses';
+import type { FollowProtocol } from '../workers/protocol/follow';
 import type { PoseProtocol } from '../workers/protocol/pose';
+import { frameAt } from './beside_poses';
 import { libraryReady } from './library_ready';
 import { asJob, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+export type Workers = Readonly<Record<ComponentName, Worker>>;
 
-/** In so many frames at most a component is looked for beside the other one. */
-const FRAMES = 3;
+/** So many frames in which a component is known lead to one that is missing, as the core has it. */
+const LED = 3;
 
-/** What a click would do. */
+/** What a click would do, or a pose that was found there. */
 export interface Clicks {
-  ask(prompt: readonly [FramePoint], place: Place, bright: boolean | null): Promise<void>;
+  ask(prompt: readonly [FramePoint], place: Place, bright: boolean | null, pose: PoseNumbers | null): Promise<void>;
+}
+
+/** A component that was found: by which way of showing metal, and where. */
+interface Taken {
+  readonly way: number;
+  readonly place: Place;
+  readonly done: Promise<void>;
+}
+
+/** What a search goes by. */
+interface Search {
+  readonly parts: readonly Member[];
+  readonly workers: Workers;
+  readonly bright: boolean | null;
+  readonly signal: AbortSignal;
+  readonly cancel: () => void;
+  /** Places in what was found, by way, component and frame. */
+  readonly places: Map<string, readonly [number, number]>;
+  readonly taken: Map<ComponentName, Taken>;
+  readonly opened: Set<ComponentName>;
 }
 
 /**
- * Finds components that nobody pointed at: their workers look for them in some whole frames, and where one is found it is clicked
- * there, so that its pose is found, judged and corrected as that of any click.
+ * Finds components that nobody pointed at, in the order of work that the core has for the page and the commands: which is looked for next,
+ * in which frame and how. Each worker searches for its component; what is found is judged and corrected as what a click leads to.
  */
 export class FirstPoses {
   readonly #services: Services;
@@ -37,93 +60,144 @@ export class FirstPoses {
     this.#clicks = clicks;
   }
 
-  /** Opens what whole frames are searched with; gives the frames that are worth it, none where there is no library. */
-  async open(component: ComponentName, worker: Worker, bright = this.#services.store.ui.tracing.bright ?? false): Promise<readonly number[]> {
+  /** Opens what frames are searched with; false where there is no library. */
+  async open(component: ComponentName, worker: Worker): Promise<boolean> {
     const { store, studio } = this.#services;
     await libraryReady(store, component);
     const { doc, ui } = store;
-    const { model } = doc.components[component];
-    const mesh = model && studio.meshOf(model.sha256);
+    const own = this.#member(component);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
-    if (!mesh || !camera || ui.libraries[component].state !== 'ready') return [];
+    if (!own || !camera || ui.libraries[component].state !== 'ready') return false;
     const library = await this.#poser.call('library', { component });
-    const input = { mesh, camera, library, frames: doc.frames.length, bright };
-    return worker.call('openSearch', input, { transfer: [library.buffer] });
+    const other = studio.meshOf(doc.components[otherThan(component)].model?.sha256 ?? '') && this.#member(otherThan(component));
+    await worker.call('openSearch', { ...own, other, camera, library, bright: ui.tracing.bright ?? false }, { transfer: [library.buffer] });
+    return true;
   }
 
-  /**
-   * Looks for a component in the whole of some frames: for dark metal, as a fluoroscope shows it, and then for bright, where nobody
-   * has said which. False where it is in none of them.
-   */
-  async find(component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
+  /** Looks for components; gives those that were found nowhere. */
+  async find(wanted: readonly ComponentName[], workers: Workers, signal: AbortSignal, cancel: () => void): Promise<readonly ComponentName[]> {
+    const parts = COMPONENT_NAMES.flatMap((name) => this.#member(name) ?? []);
+    const search = { parts, workers, signal, cancel, places: new Map(), taken: new Map(), opened: new Set<ComponentName>() };
+    const known = new Map(parts.map(({ component }) => [component, wanted.includes(component) ? [] : this.#known(component)]));
+    const bright = this.#services.store.ui.tracing.bright ?? (await this.#told({ ...search, bright: null }, known));
+    await this.#run({ ...search, bright }, known);
+    await Promise.all([...search.taken.values()].map(({ done }: Taken) => done));
+    return wanted.filter((component) => !this.#isPosed(search.taken.get(component)?.place));
+  }
+
+  async #run(search: Search, known: ReadonlyMap<ComponentName, readonly Known[]>): Promise<PlanState> {
     const { store } = this.#services;
-    for (const shown of [false, true]) {
-      // The other component may have told meanwhile.
-      const isAsShown = (store.ui.tracing.bright ?? shown) === shown;
-      if (isAsShown && (await this.#findAs(shown, component, worker, signal, cancel))) return true;
+    // Any worker has the order of all.
+    const planner = search.workers.femur;
+    const parts = search.parts.map((part) => ({ ...part, known: known.get(part.component) ?? [] }));
+    let state = await planner.call('plan', { frames: store.doc.frames.length, told: search.bright !== null, parts });
+    for (let { step } = state; step !== null; { step } = state) {
+      const answer = step.search === 'follow' ? { ends: await this.#walk(step, search) } : { found: await this.#look(step, search) };
+      state = await planner.call('planned', answer);
+      this.#take(step.way, state, search);
     }
-    return false;
+    // Another way may count in the end.
+    for (const [component, { way, place, done }] of search.taken) {
+      if (way === state.way) continue;
+      await done;
+      store.perform(setOutline(place, texts.steps.oneClick, null));
+      search.taken.delete(component);
+    }
+    if (state.way !== null) this.#take(state.way, state, search);
+    return state;
   }
 
-  async #findAs(bright: boolean, component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
-    const { store } = this.#services;
-    for (const number of await this.open(component, worker, bright)) {
-      const frame = store.doc.frames[number];
-      if (!frame) continue;
+  /** Sets what was found by now, as a click would. */
+  #take(way: number, { known }: PlanState, search: Search): void {
+    const { doc } = this.#services.store;
+    search.parts.forEach(({ component }, part) => {
+      const one = known[way]?.[part];
+      const at = one && search.places.get(`${way} ${part} ${one.frame}`);
+      const frame = one && doc.frames[one.frame];
+      if (!at || !frame || search.taken.has(component)) return;
       const place = { frameId: frame.id, component };
-      const at = await this.#search(place, number, worker, signal, cancel);
-      if (!at) continue;
-      await this.#clicks.ask([at], place, bright);
-      if (cellOf(store.doc, frame.id, component).result?.kind === 'posed') return true;
-    }
-    return false;
-  }
-
-  /** Looks for a component beside the joint's other one, in frames where that was found. False where it is in none of them. */
-  async findBeside(component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
-    const { store } = this.#services;
-    const { doc, ui } = store;
-    const known = doc.frames.flatMap((frame, number) => {
-      const beside = this.#beside(component, frame);
-      return beside ? [{ frame, number, beside }] : [];
+      const done = this.#clicks.ask([framePoint(...at)], place, isBright(way, search), one.pose);
+      search.taken.set(component, { way, place, done });
     });
-    if (known.length === 0) return false;
-    const bright = ui.tracing.bright ?? false;
-    await this.open(component, worker, bright);
-    for (const { frame, number, beside } of known.slice(0, FRAMES)) {
-      const place = { frameId: frame.id, component };
-      const at = await this.#search(place, number, worker, signal, cancel, beside);
-      if (!at) continue;
-      await this.#clicks.ask([at], place, bright);
-      if (cellOf(store.doc, frame.id, component).result?.kind === 'posed') return true;
-    }
-    return false;
   }
 
-  #beside(component: ComponentName, frame: FrameEntry): Beside | null {
-    const { store, studio } = this.#services;
-    const other = otherThan(component);
-    const cell = cellOf(store.doc, frame.id, other);
-    const mesh = studio.meshOf(store.doc.components[other].model?.sha256 ?? '');
-    const pose = chosenCandidate(cell)?.pose;
-    if (!mesh || !pose || !cell.outline?.closed) return null;
-    const outline = Float64Array.from(cell.outline.points.flatMap(({ column, row }) => [column, row]));
-    return { middle: inCamera(pose, middleOf(mesh)), outline };
-  }
-
-  async #search(place: Place, number: number, worker: Worker, signal: AbortSignal, cancel: () => void, beside: Beside | null = null): Promise<FramePoint | null> {
-    const { store, studio } = this.#services;
-    const frame = store.doc.frames[number];
-    const pixels = frame && (await studio.framePixels(frame.id));
-    if (!frame || !pixels) throw new Error(texts.follow.gone(number + 1));
-    const job = { title: texts.follow.looking(texts.component[place.component], number + 1), unit: texts.tracing.said.percent, total: 100, cancel, place };
-    const found = await asJob(store, job, (report) =>
-      worker.call('find', { ...pixels, beside }, {
-        signal,
+  async #look({ way, part, frame, search: how, known }: PlanStep, search: Search): Promise<Discovery | null> {
+    const own = search.parts[part]!;
+    const { component } = own;
+    const worker = search.workers[component];
+    if (!(await this.#isOpen(component, search))) return null;
+    const { frameId, ...pixels } = await frameAt(this.#services, frame);
+    const beside: FindInput['beside'] = known && { pose: known, inJoint: how === 'joint' };
+    const other = known && texts.component[otherThan(component)];
+    const title = texts.follow.looking(texts.component[component], frame + 1, other);
+    const job = { title, unit: texts.tracing.said.percent, total: 100, cancel: search.cancel, place: { frameId, component } };
+    const found = await asJob(this.#services.store, job, (report) =>
+      worker.call('find', { ...pixels, beside, bright: isBright(way, search) }, {
+        signal: search.signal,
         transfer: [pixels.pixels.buffer],
         onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
       }),
     );
-    return found && framePoint(found[0] ?? 0, found[1] ?? 0);
+    if (found) search.places.set(`${way} ${part} ${frame}`, found.place);
+    return found;
   }
+
+  /** Follows a component to both sides of a frame in which it is known: where the other one is looked for too. */
+  async #walk({ way, part, frame, known }: PlanStep, search: Search): Promise<Float64Array<ArrayBuffer>> {
+    const { component } = search.parts[part]!;
+    const worker = search.workers[component];
+    let ends = new Float64Array();
+    if (known === null || !(await this.#isOpen(component, search))) return ends;
+    const { store } = this.#services;
+    const title = texts.follow.looking(texts.component[component], frame + 1, null);
+    await asJob(store, { title, unit: '', total: 0, cancel: search.cancel }, async () => {
+      const begun = { frame, pose: known, frames: store.doc.frames.length, bright: isBright(way, search) };
+      for (let next = await worker.call('beginWalk', begun); next !== null; ) {
+        const { frameId: _, ...pixels } = await frameAt(this.#services, next);
+        const seen = await worker.call('walk', pixels, { signal: search.signal, transfer: [pixels.pixels.buffer] });
+        ({ next, ends } = seen);
+      }
+    });
+    return ends;
+  }
+
+  async #isOpen(component: ComponentName, { opened, workers }: Search): Promise<boolean> {
+    if (!opened.has(component) && (await this.open(component, workers[component]))) opened.add(component);
+    return opened.has(component);
+  }
+
+  /** Whether metal is bright, by a component that is known; null where none is. */
+  async #told(search: Search, known: ReadonlyMap<ComponentName, readonly Known[]>): Promise<boolean | null> {
+    for (const [component, [first]] of known) {
+      if (!first || !(await this.#isOpen(component, search))) continue;
+      const { frameId: _, ...pixels } = await frameAt(this.#services, first.frame);
+      return search.workers[component].call('isBright', { ...pixels, pose: first.pose }, { transfer: [pixels.pixels.buffer] });
+    }
+    return null;
+  }
+
+  /** Frames in which a component has a pose. */
+  #known(component: ComponentName): readonly Known[] {
+    const { doc } = this.#services.store;
+    const all = doc.frames.flatMap(({ id }, frame) => {
+      const pose = chosenCandidate(cellOf(doc, id, component))?.pose;
+      return pose ? [{ frame, pose }] : [];
+    });
+    return all.slice(0, LED);
+  }
+
+  #member(component: ComponentName): Member | null {
+    const { store, studio } = this.#services;
+    const { model, axes } = store.doc.components[component];
+    const mesh = studio.meshOf(model?.sha256 ?? '');
+    return mesh && { component, mesh, axes };
+  }
+
+  #isPosed(place: Place | undefined): boolean {
+    return place !== undefined && cellOf(this.#services.store.doc, place.frameId, place.component).result?.kind === 'posed';
+  }
+}
+
+function isBright(way: number, { bright }: Pick<Search, 'bright'>): boolean {
+  return bright ?? way === 1;
 }

@@ -63,12 +63,12 @@ class Progress {
  */
 export class Follower {
   readonly #services: Services;
-  readonly #first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>;
+  readonly #first: Pick<FirstPoses, 'open' | 'find'>;
   readonly #film: Film;
   readonly #workers: Readonly<Record<ComponentName, Worker>>;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>, film: Film) {
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find'>, film: Film) {
     this.#services = services;
     this.#workers = workers;
     this.#first = first;
@@ -101,14 +101,8 @@ export class Follower {
     const isHere = (component: ComponentName) => studio.meshOf(store.doc.components[component].model?.sha256 ?? '') !== null;
     const unposed = standingOf(store.doc).unposed.filter(isHere);
     const cancel = () => abort.abort();
-    const found = await Promise.all(unposed.map((component) => this.#first.find(component, this.#workers[component], abort.signal, cancel)));
+    const missing = unposed.length > 0 ? await this.#first.find(unposed, this.#workers, abort.signal, cancel) : [];
     await this.#filmReady(abort);
-    const missing: ComponentName[] = [];
-    for (const component of unposed.filter((_, index) => !found[index])) {
-      const isFound = await this.#first.findBeside(component, this.#workers[component], abort.signal, cancel);
-      if (isFound) await this.#filmReady(abort);
-      else missing.push(component);
-    }
     return missing;
   }
 
@@ -230,7 +224,7 @@ export class Follower {
     const { doc } = store;
     const { mesh, camera } = subjectOf(this.#services, component);
     const { first, last, given } = span;
-    const searches = (await this.#first.open(component, worker)).length > 0;
+    const searches = await this.#first.open(component, worker);
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), signal, progress.followed);
     // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.

@@ -8,7 +8,7 @@ export const follow = {
   reading: 'Reading the film beside the frames that are set',
   estimating: 'Estimating the constants of the film',
   deciding: 'Looking at other poses of the film',
-  looking: (component: string, frame: number) => `Looking for the ${component} in frame ${frame}`,
+  looking: (component: string, frame: number, other: string | null) => `Looking for the ${component} ${other ? `beside the ${other} ` : ''}in frame ${frame}`,
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
   unit: 'frames',

@@ -3,6 +3,7 @@ import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { gaveWay } from '../document/followed';
 import { cellKey, cellOf, type FrameEntry } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
@@ -26,6 +27,8 @@ interface Asked {
   readonly place: Place;
   readonly frame: FrameEntry;
   readonly bright: boolean | null;
+  /** One that was found before. */
+  readonly pose: PoseNumbers | null;
   readonly abort: AbortController;
 }
 
@@ -43,13 +46,13 @@ export class OneClick {
     this.#film = film;
   }
 
-  async ask(prompt: Prompt, place: Place, bright: boolean | null): Promise<void> {
+  async ask(prompt: Prompt, place: Place, bright: boolean | null, pose: PoseNumbers | null = null): Promise<void> {
     const { store } = this.#services;
     const frame = store.doc.frames.find(({ id }) => id === place.frameId);
     if (!frame) return;
     const key = cellKey(place.frameId, place.component);
     this.#asked.get(key)?.abort.abort();
-    const asked = { prompt, place, frame, bright, abort: new AbortController() };
+    const asked = { prompt, place, frame, bright, pose, abort: new AbortController() };
     this.#asked.set(key, asked);
     const before = this.#turn;
     const answered = this.#answer(asked, before).catch((error: unknown) => {
@@ -77,11 +80,11 @@ export class OneClick {
     });
   }
 
-  async #find({ prompt, place, frame, bright, abort }: Asked, report: (done: number, total: number) => void): Promise<void> {
+  async #find({ prompt, place, frame, bright, pose, abort }: Asked, report: (done: number, total: number) => void): Promise<void> {
     const { store } = this.#services;
     const { component } = place;
     const pixels = await this.#services.studio.framePixels(frame.id);
-    const input = this.#input(prompt, place, frame, bright, pixels);
+    const input = { ...this.#input(prompt, place, frame, bright, pixels), pose };
     const before = cellOf(store.doc, frame.id, component).outline;
     const key = input.withModel ? poseKey(store.doc, component, frame) : null;
     const answer = await this.#worker.call('oneClick', input, {
@@ -96,7 +99,7 @@ export class OneClick {
     this.#take(answer, place, key, input.film);
   }
 
-  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels | null): OneClickInput {
+  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels | null): Omit<OneClickInput, 'pose'> {
     const { store } = this.#services;
     const camera = cameraOf(store.doc, frame);
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);

@@ -1,28 +1,26 @@
-import { FilmFollower, FilmReader, type FollowedFilm, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
+import { FilmFollower, FilmReader, type FollowedFilm } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { COMPONENT_NAMES } from '../../terms/component';
-import type { Beside, Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
-import type { FramePixels } from '../protocol/frame_pixels';
+import type { Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
-import { imageOf } from './frame_pixels';
-import { type Context, serve } from './serve';
+import { firstPoses, Searcher } from './first_poses';
+import { withImage } from './frame_pixels';
+import { serve } from './serve';
 
 /** Follows one component, beside the worker that finds poses: the person goes on working. */
 const ready = loadCore();
 const NONE = new Float64Array();
 let follower: FilmFollower | null = null;
 let reader: FilmReader | null = null;
-let search: FrameSearch | null = null;
-/** What whole frames are searched with: opened with the first one, because most films need none, and it takes as long as some frames. */
-let openSearch: (() => FrameSearch) | null = null;
-let filmOfSearch = NONE;
+const searcher = new Searcher();
 let frames = 0;
 
 const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 
 serve<FollowProtocol>({
+  ...firstPoses(ready, searcher),
   readFilm: async ({ mesh, camera: { text, width, height }, component, given, ...film }) => {
     await ready;
     reader?.free();
@@ -38,15 +36,6 @@ serve<FollowProtocol>({
       const profiles = reader.take(image) as Float32Array<ArrayBuffer>;
       return { profiles, next: reader.wanted() ?? null };
     }),
-  openSearch: async ({ mesh, camera: { text, width, height }, library, bright, ...film }) => {
-    await ready;
-    search?.free();
-    search = null;
-    filmOfSearch = NONE;
-    openSearch = () => new FrameSearch(library, mesh.vertices, mesh.triangles, text, width, height, bright);
-    return [...framesToSearch(film.frames)];
-  },
-  find: ({ beside, ...pixels }, context) => withImage(pixels, (image) => searched(image, beside, context)),
   begin: async ({ mesh, camera, first, last, given, film, searches, ...input }) => {
     await ready;
     follower?.free();
@@ -55,9 +44,8 @@ serve<FollowProtocol>({
     const { text, width, height } = camera;
     const begun = new FilmFollower(mesh.vertices, mesh.triangles, text, width, height, frames, first, last, Float64Array.from(film ?? []));
     for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)), true);
-    if (searches && (search || openSearch)) {
-      filmOfSearch = Float64Array.from(film ?? []);
-      search?.knowFilm(filmOfSearch);
+    if (searches && searcher.isOpen) {
+      searcher.knowFilm(Float64Array.from(film ?? []));
       begun.searchWhereLost();
     }
     follower = begun;
@@ -66,8 +54,8 @@ serve<FollowProtocol>({
   look: (pixels, context) =>
     withImage(pixels, async (image) => {
       if (working().isSearch) {
-        await searched(image, null, context);
-        working().searched(search?.pose);
+        await searcher.find(image, NONE, false, context);
+        working().searched(searcher.pose);
         return { pose: null, next: working().wanted() ?? null };
       }
       const pose = working().take(image);
@@ -106,34 +94,6 @@ serve<FollowProtocol>({
     return found;
   },
 });
-
-async function withImage<T>(pixels: FramePixels, work: (image: FrameImage) => Promise<T>): Promise<T> {
-  const image = imageOf(pixels);
-  try {
-    return await work(image);
-  } finally {
-    image.free();
-  }
-}
-
-/** Searches the whole frame in steps of some tens of milliseconds, so that it can be called off between them. */
-async function searched(image: FrameImage, beside: Beside | null, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Float64Array<ArrayBuffer> | null> {
-  search ??= opened();
-  search.beside(Float64Array.from(beside?.middle ?? []), beside?.outline ?? NONE);
-  for (let more = search.step(image, true); more; more = search.step(image, false)) {
-    report({ fraction: search.progress });
-    await breathe();
-  }
-  return (search.place as Float64Array<ArrayBuffer> | undefined) ?? null;
-}
-
-function opened(): FrameSearch {
-  if (!openSearch) throw new Error('nothing is looked for');
-  const made = openSearch();
-  openSearch = null;
-  made.knowFilm(filmOfSearch);
-  return made;
-}
 
 function rivalOf(film: FollowedFilm, frame: number): FollowedFrame['rival'] {
   const pose = posed(film.rival(frame));

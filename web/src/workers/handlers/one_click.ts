@@ -2,6 +2,7 @@ import { OneClick, type FrameImage, type Match as RawMatch, type Matcher, type O
 import type { ComponentName } from '../../terms/component';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';
+import { poseArray } from '../protocol/pose_array';
 import { imageOf } from './frame_pixels';
 import { filmArray, usualMisfit } from './on_frame';
 import type { Context, Handlers } from './serve';
@@ -38,7 +39,8 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
   try {
     if (input.avoid) work.avoid(input.avoid);
     work.knowFilm(filmArray(input.film), usualMisfit(input.misfits));
-    while (matcher ? work.step(matcher) : work.stepAlone()) {
+    if (matcher && input.pose) work.takePose(matcher, Float64Array.from(poseArray(input.pose)));
+    else while (matcher ? work.step(matcher) : work.stepAlone()) {
       context.report({ fraction: work.progress, doing: work.doing });
       await context.breathe();
     }

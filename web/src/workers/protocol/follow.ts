@@ -4,18 +4,15 @@ import type { Directions } from '../../geometry/axes';
 import type { ComponentName } from '../../terms/component';
 import type { ModelMesh } from './decode';
 import type { CameraInput } from './camera';
+import type { FirstPosesProtocol } from './first_poses';
 import type { FramePixels } from './frame_pixels';
 
 /** Follows one component through a film: one worker a component. Frames are numbered from 0. */
-export interface FollowProtocol {
+export interface FollowProtocol extends FirstPosesProtocol {
   /** Begins to read profiles of the film around the first poses that are given; gives the first frame that is to be looked at. */
   readFilm: { input: FilmReading; output: number | null; progress: never };
   /** Reads them in the frame that was asked for: none where the component is not found there. */
   lookFilm: { input: FramePixels; output: FilmSeen; progress: never };
-  /** What whole frames are searched with, until the next one; gives the frames of the film that are to be searched, in their order. */
-  openSearch: { input: SearchInput; output: readonly number[]; progress: never };
-  /** Looks for the component in a whole frame, and gives a point of it; null where it is nowhere. */
-  find: { input: FramePixels & { readonly beside: Beside | null }; output: Float64Array<ArrayBuffer> | null; progress: { readonly fraction: number } };
   /** Gives the first frame that is to be looked at; null where there is none. */
   begin: { input: FollowInput; output: number | null; progress: never };
   /** Looks at the frame that was asked for, or searches it as a whole: it can be called off then. */
@@ -36,23 +33,6 @@ export interface FollowProtocol {
   /** Distances from the camera, mm; NaN where the component is not to be trusted. */
   depths: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
   conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
-}
-
-export interface SearchInput {
-  readonly mesh: ModelMesh;
-  readonly camera: CameraInput;
-  readonly library: Uint8Array<ArrayBuffer>;
-  readonly frames: number;
-  /** Metal is brighter than what surrounds it. */
-  readonly bright: boolean;
-}
-
-/** Where the joint's other component is: less is asked of what lies beside it. */
-export interface Beside {
-  /** The middle of its model, mm, in the camera's frame. */
-  readonly middle: readonly [number, number, number];
-  /** Columns and rows by turns. */
-  readonly outline: Float64Array<ArrayBuffer>;
 }
 
 export interface FilmReading {

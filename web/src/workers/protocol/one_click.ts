@@ -1,3 +1,4 @@
+import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { FramePixels } from './frame_pixels';
 import type { Match, Surroundings } from './match';
@@ -21,6 +22,8 @@ export interface OneClickInput {
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
   readonly misfits: FilmMisfits;
+  /** A pose that was found there before: it is refined and judged, and nothing is looked for; null where there is none. */
+  readonly pose: PoseNumbers | null;
 }
 
 export interface OneClickFacts {

@@ -1,0 +1,90 @@
+import type { Directions } from '../../geometry/axes';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { Told } from '../../document/types';
+import type { ComponentName } from '../../terms/component';
+import type { CameraInput } from './camera';
+import type { ModelMesh } from './decode';
+import type { FramePixels } from './frame_pixels';
+
+/** Looks for a component that nobody pointed at. Frames are numbered from 0. */
+export interface FirstPosesProtocol {
+  /** In which order components are looked for; gives what is to be done first. One worker has the order of all. */
+  plan: { input: PlanInput; output: PlanState; progress: never };
+  /** Takes what came of a step; gives the next. */
+  planned: { input: StepAnswer; output: PlanState; progress: never };
+  /** What frames are searched with, until the next one. */
+  openSearch: { input: SearchInput; output: null; progress: never };
+  /** Whether metal is bright in a frame in which the component is known. */
+  isBright: { input: FramePixels & { readonly pose: PoseNumbers }; output: boolean; progress: never };
+  /** Looks for the component in a frame; null where it is nowhere. */
+  find: { input: FramePixels & FindInput; output: Discovery | null; progress: { readonly fraction: number } };
+  /** Begins to follow it from a frame in which it is known to some before and after it; gives the first frame that is to be looked at. */
+  beginWalk: { input: { readonly frame: number; readonly pose: PoseNumbers; readonly frames: number; readonly bright: boolean }; output: number | null; progress: never };
+  /** Looks at the frame that was asked for. */
+  walk: { input: FramePixels; output: { readonly next: number | null; readonly ends: Float64Array<ArrayBuffer> }; progress: never };
+}
+
+/** A component of the joint: its model, and its axes as they are known. */
+export interface Member {
+  readonly component: ComponentName;
+  readonly mesh: ModelMesh;
+  /** Null: its shape is to be asked. */
+  readonly axes: { readonly directions: Directions; readonly told: Told } | null;
+}
+
+export interface PlanInput {
+  readonly frames: number;
+  /** It is known how the film shows metal. */
+  readonly told: boolean;
+  readonly parts: readonly (Member & { readonly known: readonly Known[] })[];
+}
+
+export interface Known {
+  readonly frame: number;
+  readonly pose: PoseNumbers;
+}
+
+export interface PlanState {
+  /** Null where nothing is left to do. */
+  readonly step: PlanStep | null;
+  /** Where each component is known first: of dark metal and of bright, or of the one that was told. */
+  readonly known: readonly (readonly (Known | null)[])[];
+  /** Which of them counts, once nothing is left to do. */
+  readonly way: number | null;
+}
+
+export interface PlanStep {
+  /** 0 dark, 1 bright; where that was told always 0. */
+  readonly way: number;
+  /** Number of the component. */
+  readonly part: number;
+  readonly frame: number;
+  /** In the whole frame; where its joint leaves it beside the other one; in the whole frame beside that; or it is to be followed from there. */
+  readonly search: 'whole' | 'joint' | 'beside' | 'follow';
+  /** The pose that is known there: of the other component, or of the one that is to be followed. */
+  readonly known: PoseNumbers | null;
+}
+
+/** What came of a step: of a search, or of following. */
+export type StepAnswer = { readonly found: Discovery | null } | { readonly ends: Float64Array<ArrayBuffer> };
+
+export interface SearchInput extends Member {
+  readonly other: Member | null;
+  readonly camera: CameraInput;
+  readonly library: Uint8Array<ArrayBuffer>;
+  /** Metal is brighter than what surrounds it. */
+  readonly bright: boolean;
+}
+
+export interface FindInput {
+  readonly bright: boolean;
+  /** The pose of the joint's other component, and whether the joint tells where this one is. */
+  readonly beside: { readonly pose: PoseNumbers; readonly inJoint: boolean } | null;
+}
+
+export interface Discovery {
+  /** Column and row of a place in it. */
+  readonly place: readonly [number, number];
+  readonly pose: PoseNumbers;
+  readonly score: number;
+}
