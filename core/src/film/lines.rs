@@ -94,7 +94,7 @@ impl PathLine {
     }
 
     /// The same, but what lies before a place is left out: it is taken to be as there.
-    pub(crate) fn from_place(mut self, first: usize) -> Self {
+    pub(crate) fn starting_at(mut self, first: usize) -> Self {
         self.first = first.min(ORIGIN) as u16;
         self
     }
@@ -322,7 +322,7 @@ fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
     let mut tiles = Tiles::around(ends, LEAST_PLACES);
     heads.fill(NONE);
     for (number, line) in lines.iter_mut().enumerate() {
-        *line = PathLine::at(line.origin, line.direction).from_place(line.measured().start);
+        *line = PathLine::at(line.origin, line.direction).starting_at(line.measured().start);
         let (mut entered, mut before) = (0, None);
         let mut points = line.measured();
         while let Some(point) = points.next() {

@@ -43,7 +43,7 @@ impl<'l> DrawnEdges<'l> {
             // It stands for those that are left out.
             sample.weight *= stage.every.unwrap_or(1) as f32;
             let across = PathLine::at(sample.place(), sample.normal().map(f64::from));
-            *line = across.from_place(first_place);
+            *line = across.starting_at(first_place);
         }
         measure(model, view.camera, pose, scratch, lines, memory.heads)?;
         for (line, sample) in lines.iter().zip(border) {
