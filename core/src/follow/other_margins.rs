@@ -15,8 +15,9 @@ use crate::pose::geodesic_deg;
 /// By how much another pose of each frame is less likely; `None` where there is none. `samples` were seen from both sides of the mirror,
 /// `steps` is what [`super::choose_sides`] made of them, `beside` was seen from elsewhere; `cells` are the poses of the film now.
 ///
-/// The tilt of a tray errs alike in all frames, and its votes add up: where it chose a side that leaves so much more than the other in any frame
-/// that this would decide by itself, the side is open as far as both sides are apart.
+/// The tilt of a tray errs alike in all frames, and its votes add up: where the side that was not chosen leaves so much less in any frame than is
+/// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where it leaves as much less than the
+/// frame's own pose alone, that pose is off, and open in this frame.
 #[must_use]
 pub fn other_margins(
     samples: &[SideSample],
@@ -24,10 +25,12 @@ pub fn other_margins(
     beside: &[SideSample],
     cells: &[Cell],
 ) -> Vec<Option<SideMargin>> {
-    let open = contradicted(samples, cells);
+    let open = contradicted(samples, cells, usual_misfit(cells));
     let mirrored = |frame: usize| {
         let margin = side_margin(samples, steps, frame)?;
-        let is_open = nearest(samples, frame).is_some_and(|sample| open[sample]);
+        let nearest = nearest(samples, frame)?;
+        let is_own = samples[nearest].frame == frame;
+        let is_open = open[nearest] || is_own && leaves_more(&samples[nearest], cells, f64::MAX);
         Some(match is_open {
             true => SideMargin {
                 margin: 0.0,
@@ -43,14 +46,16 @@ pub fn other_margins(
 }
 
 /// Which samples lie on a stretch between two meetings of both sides in which any leaves decisively less on the side that was not chosen.
-fn contradicted(samples: &[SideSample], cells: &[Cell]) -> Vec<bool> {
+fn contradicted(samples: &[SideSample], cells: &[Cell], usual_px: f64) -> Vec<bool> {
     let mut open = vec![false; samples.len()];
     let mut begin = 0;
     while begin < samples.len() {
         let meets = |&k: &usize| !are_apart(&samples[k]);
         let end = (begin..samples.len()).find(meets).unwrap_or(samples.len());
         let stretch = &samples[begin..end];
-        let is_open = stretch.iter().any(|sample| leaves_more(sample, cells));
+        let is_open = stretch
+            .iter()
+            .any(|sample| leaves_more(sample, cells, usual_px));
         open[begin..end].fill(is_open);
         begin = end + 1;
     }
@@ -67,15 +72,23 @@ fn are_apart(sample: &SideSample) -> bool {
             .is_some_and(|other| off(other) >= ONE_DEG)
 }
 
-/// Whether the pose of a frame leaves decisively more than another that was seen in it.
-fn leaves_more(sample: &SideSample, cells: &[Cell]) -> bool {
+/// The median of what poses leave, pixels.
+fn usual_misfit(cells: &[Cell]) -> f64 {
+    let found = cells.iter().filter_map(Cell::found);
+    let mut all: Vec<f64> = found.map(|found| found.misfit_px).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Whether the pose of a frame, and what is usual, leaves decisively more than another that was seen in it.
+fn leaves_more(sample: &SideSample, cells: &[Cell], usual_px: f64) -> bool {
     let cell = cells.get(sample.frame).filter(|cell| !cell.fixed);
     let Some(now) = cell.and_then(Cell::found) else {
         return false;
     };
     let seen = [Some(sample.own), sample.other];
     seen.iter().flatten().any(|other| {
-        now.misfit_px >= DECISIVE_RATIO * other.misfit_px
+        now.misfit_px.min(usual_px) >= DECISIVE_RATIO * other.misfit_px
             && geodesic_deg(&now.pose.rotation, &other.pose.rotation) >= ONE_DEG
     })
 }
@@ -137,6 +150,13 @@ mod tests {
         assert!(margins(others, None).iter().all(|&margin| margin > 1.0));
         others[5] = 0.44;
         assert!(margins(others, None).iter().all(|&margin| margin == 0.0));
+        let mut off = [0.62; 7];
+        off[5] = 0.5;
+        let (samples, mut cells) = film(off, None);
+        cells[5] = Cell::from(&Anchor::found(5, turned(3.0, 0.8)));
+        let usual = usual_misfit(&cells);
+        assert!(leaves_more(&samples[5], &cells, f64::MAX));
+        assert_eq!(contradicted(&samples, &cells, usual), [false; 7]);
         let parted = margins(others, Some(3));
         assert!(parted[..3].iter().all(|&margin| margin > 0.5), "{parted:?}");
         assert!(
