@@ -13,6 +13,8 @@
 //! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for; before it, [`FilmReading`] reads
 //! what the constants of the film are estimated from.
 //!
+//! Where nobody points at a component [`SearchPlan`] says in which order it is looked for, and by which search, until it is found.
+//!
 //! Nothing here knows files, threads or time: whoever calls gives frames one by one, in the order that he likes.
 
 mod cell;
@@ -43,6 +45,7 @@ mod near;
 #[cfg(feature = "alloc")]
 mod other_margins;
 mod search_order;
+mod search_plan;
 #[cfg(feature = "alloc")]
 mod second_look;
 mod settle;
@@ -83,6 +86,9 @@ pub use near::{NEAR, near_poses};
 #[cfg(feature = "alloc")]
 pub use other_margins::other_margins;
 pub use search_order::{TRIES, frames_to_search, run_to_search};
+pub use search_plan::{
+    Ends, FAR, KnownFrame, LED, NOWHERE, Other, Search, SearchPlan, SearchStep, Sought, WAYS,
+};
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};
 pub use settle::settled;

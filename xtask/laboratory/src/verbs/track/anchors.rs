@@ -62,25 +62,6 @@ fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Resul
     anchor.with_context(|| format!("the pose of frame {}", frame + 1))
 }
 
-/// A frame that a component is followed from, where it is found in it.
-pub(super) fn found_in(
-    run: &Run<'_>,
-    part: &Part<'_>,
-    frame: usize,
-    depth: Option<f64>,
-) -> Result<Option<Anchor>> {
-    run.say(format!(
-        "{}: looked for in frame {}",
-        part.name(),
-        frame + 1
-    ));
-    let found = searched(run, part, frame, depth, None)?;
-    if found.is_some() {
-        run.say(format!("{}: found in frame {}", part.name(), frame + 1));
-    }
-    Ok(found.map(|found| Anchor::found(frame, found)))
-}
-
 /// The same frames looked at again, now that the film's constants are known: the best of what the pose and those near it
 /// lead to.
 pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Anchor>> {

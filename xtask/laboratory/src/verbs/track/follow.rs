@@ -1,8 +1,7 @@
 //! A component followed from anchors, frames whose pose is known, over the frames between and beside them.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, Cell, Looked, Way, have_met, join_ways, look};
-use fluoropose::pose::Pose;
+use fluoropose::follow::{Anchor, Cell, Ends, FAR, Looked, Way, have_met, join_ways, look};
 use sha2::{Digest, Sha256};
 
 use super::part::Part;
@@ -68,26 +67,18 @@ struct Walk<'w, 's> {
     looked: Vec<(usize, Looked)>,
 }
 
-/// What lies at most `far` frames beside an anchor, the anchor included: in the order of frames.
-pub(super) fn beside(
-    run: &Run<'_>,
-    part: &Part<'_>,
-    anchor: &Anchor,
-    far: usize,
-) -> Result<Vec<(usize, Pose)>> {
-    let last = (anchor.frame + far).min(run.film.count() - 1);
+/// The first and the last of the frames near an anchor in which the component is followed from there.
+pub(super) fn ends_beside(run: &Run<'_>, part: &Part<'_>, anchor: &Anchor) -> Result<Ends> {
+    let last = (anchor.frame + FAR).min(run.film.count() - 1);
     let (before, after) = rayon::join(
-        || way(run, part, anchor, anchor.frame.saturating_sub(far)),
+        || way(run, part, anchor, anchor.frame.saturating_sub(FAR)),
         || way(run, part, anchor, last),
     );
-    let mut found = vec![(anchor.frame, anchor.found.pose)];
-    for (frame, looked) in before?.looked.into_iter().chain(after?.looked) {
-        if let Ok(one) = looked.found {
-            found.push((frame, one.pose));
-        }
-    }
-    found.sort_by_key(|&(frame, _)| frame);
-    Ok(found)
+    let end = |walk: Walk<'_, '_>| {
+        let found = |(frame, looked): &(usize, Looked)| Some((*frame, looked.found.ok()?.pose));
+        walk.looked.iter().rev().find_map(found)
+    };
+    Ok([end(before?), end(after?)])
 }
 
 fn way<'w, 's>(

@@ -1,24 +1,25 @@
-//! How a film shows metal: darker or brighter than what surrounds it.
+//! The frames that components are followed from, in a film that shows metal darker or brighter than what surrounds it.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, frames_to_search};
+use fluoropose::follow::{
+    Anchor, FramePose, KnownFrame, NOWHERE, Other, Search, SearchPlan, SearchStep, Sought,
+};
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
-use rayon::prelude::*;
 
-use super::anchors::{fixed_poses, found_in, given};
+use super::anchors::{fixed_poses, given};
+use super::follow::ends_beside;
 use super::part::Part;
-use super::partner::{begin_beside, begin_in_joint, or_in_joint};
+use super::partner::or_in_joint;
 use super::run::Run;
+use super::search::{Beside, in_joint, searched};
 use crate::files::{Role, grey};
 use crate::options::most;
 
 /// So many fixed poses of a component are asked at most.
 const VOTES: usize = 3;
 
-/// The components, and the frames that each is followed from. Where nobody says how the film shows metal, and nothing is pointed
-/// at that would tell it, metal is looked for as fluoroscopes show it, dark, and where a frame shows nothing so the other way too:
-/// whichever shows a component first is gone on with. Where that does not show all components, what is found better counts, for a
-/// bright thing beside dark ones may be taken for a component.
+/// The components, and the frames that each is followed from: what a person gave, and what is found of the rest in the order that
+/// [`SearchPlan`] tells. Where nobody says how the film shows metal, and nothing is pointed at that would tell it, that is in two ways.
 pub(super) fn begun<'s>(
     run: &Run<'_>,
     parts: impl Fn(Polarity) -> Result<Vec<Part<'s>>>,
@@ -27,155 +28,136 @@ pub(super) fn begun<'s>(
         Some(stated) => Some(stated),
         None => told_by_what_is_given(run, &parts(Polarity::default())?)?,
     };
-    let mut ways = vec![Search::begin(run, parts(told.unwrap_or_default())?)?];
+    let mut ways = vec![Way::begin(run, parts(told.unwrap_or_default())?)?];
     if told.is_none() {
-        ways.push(Search::begin(run, parts(Polarity::BrightImplant)?)?);
+        ways.push(Way::begin(run, parts(Polarity::BrightImplant)?)?);
     }
-    for frame in frames_to_search(&(0..run.film.count())) {
-        for k in 0..ways.len() {
-            let others_lead = (0..ways.len()).any(|other| other != k && !ways[other].is_empty());
-            if !others_lead && ways[k].alone(run, frame)? {
-                return Ok(ways.swap_remove(k).found());
+    let mut sought: Vec<Sought> = ways.iter().flat_map(Way::sought).collect();
+    let mut plan = SearchPlan::new(run.film.count(), told.is_some());
+    let each = sought.len() / ways.len();
+    loop {
+        let step = plan.next(&mut sought);
+        for (way, sought) in ways.iter_mut().zip(sought.chunks(each.max(1))) {
+            way.take(run, sought);
+        }
+        let Some(step) = step else { break };
+        let way = &mut ways[step.way];
+        match step.search {
+            Search::Follow { from } => {
+                let ends = ends_beside(run, &way.parts[step.part], &way.anchors[step.part][from])?;
+                plan.followed(ends, &mut sought);
+            }
+            _ => {
+                let found = way.look(run, &step)?;
+                plan.found(found.map(|one| (one.pose, one.score())), &mut sought);
             }
         }
     }
-    ways.sort_by_key(Search::is_empty);
-    for way in &mut ways {
-        for frame in frames_to_search(&(0..run.film.count())) {
-            way.alone(run, frame)?;
-        }
-        if way.beside(run)? {
-            break;
-        }
-    }
-    // Of those that are as good the first.
-    let scored = ways.into_iter().rev().map(|way| (score(&way.anchors), way));
-    let best = scored.max_by(|(one, _), (other, _)| one.total_cmp(other));
-    Ok(best.map_or_else(Default::default, |(_, way)| way.found()))
+    let way = ways.swap_remove(plan.way().unwrap_or(0));
+    way.tell_missing(run);
+    Ok((way.parts, way.anchors))
 }
 
-/// The search for all components of a film that shows metal in one way.
-struct Search<'s> {
+/// All components of a film that shows metal in one way.
+struct Way<'s> {
     parts: Vec<Part<'s>>,
     anchors: Vec<Vec<Anchor>>,
-    /// Frames that were searched.
-    seen: Vec<usize>,
-    /// The anchors beside which joints have been looked for.
-    led: usize,
+    /// What searches led to.
+    found: Vec<(SearchStep, FramePose)>,
 }
 
-impl<'s> Search<'s> {
+impl<'s> Way<'s> {
     /// With what a person gave.
     fn begin(run: &Run<'_>, parts: Vec<Part<'s>>) -> Result<Self> {
         let anchors = parts.iter().map(|part| given(run, part));
         let mut anchors = anchors.collect::<Result<Vec<_>>>()?;
         let clicked = anchors.clone();
-        let others = others(&parts, &clicked);
+        let each = parts.iter().zip(&clicked);
+        let others: Vec<_> = each.map(|(part, own)| (part, own.as_slice())).collect();
         let trays = parts.iter().zip(&mut anchors);
-        for (part, anchors) in trays.filter(|(part, _)| is_tray(part)) {
+        for (part, anchors) in trays.filter(|(part, _)| part.role() == Some(Role::Tibia)) {
             *anchors = or_in_joint(run, part, anchors, &others)?;
         }
-        let seen = Vec::new();
         Ok(Self {
             parts,
             anchors,
-            seen,
-            led: 0,
+            found: Vec::new(),
         })
     }
 
-    /// Looks for what is missing in a whole frame; whether all is found then. Femurs and others first: a tray is found by its joint
-    /// where its femur is known, sooner and surer than alone.
-    fn alone(&mut self, run: &Run<'_>, frame: usize) -> Result<bool> {
-        self.in_joint(run)?;
-        if !self.seen.contains(&frame) {
-            self.seen.push(frame);
-            for trays in [false, true] {
-                let depth = self.depth();
-                let both = self.parts.par_iter().zip(&mut self.anchors);
-                both.filter(|(part, anchors)| anchors.is_empty() && is_tray(part) == trays)
-                    .try_for_each(|(part, anchors)| -> Result<()> {
-                        anchors.extend(found_in(run, part, frame, depth)?);
-                        Ok(())
-                    })?;
-                self.in_joint(run)?;
+    /// The components as the order of work knows them.
+    fn sought(&self) -> impl Iterator<Item = Sought> {
+        let each = self.parts.iter().zip(&self.anchors);
+        each.map(|(part, anchors)| {
+            let role = part.role().map(Role::component);
+            let mut sought = Sought::new(role, part.limb.is_some(), part.middle());
+            for anchor in anchors {
+                let (frame, found) = (anchor.frame, &anchor.found);
+                sought.know(KnownFrame::new(frame, found.pose, found.score()));
+            }
+            sought
+        })
+    }
+
+    /// Takes what is known now of components that were missing, and tells it.
+    fn take(&mut self, run: &Run<'_>, sought: &[Sought]) {
+        for (number, known) in sought.iter().enumerate() {
+            let (Some(known), true) = (known.known().first(), self.anchors[number].is_empty())
+            else {
+                continue;
+            };
+            let is_it = |(step, found): &&(SearchStep, FramePose)| {
+                (step.part, step.frame) == (number, known.frame) && found.pose == known.pose
+            };
+            if let Some((step, found)) = self.found.iter().find(is_it) {
+                self.anchors[number].push(Anchor::found(known.frame, *found));
+                let how = match step.search {
+                    Search::Joint(_) => ", by its joint".to_owned(),
+                    Search::Beside { other, .. } => {
+                        format!(", beside the {}", self.parts[other.part].name())
+                    }
+                    _ => String::new(),
+                };
+                let (name, frame) = (self.parts[number].name(), known.frame + 1);
+                run.say(format!("{name}: found in frame {frame}{how}"));
             }
         }
-        Ok(self.is_whole())
     }
 
-    /// Looks for what is missing where its joint leaves it beside what is known.
-    fn in_joint(&mut self, run: &Run<'_>) -> Result<()> {
-        let known = self.anchors.clone();
-        let led = known.iter().map(Vec::len).sum();
-        if led == self.led {
-            return Ok(());
-        }
-        self.led = led;
-        let others = others(&self.parts, &known);
-        for (part, anchors) in self.parts.iter().zip(&mut self.anchors) {
-            if anchors.is_empty() && part.limb.is_some() {
-                *anchors = begin_in_joint(run, part, &others)?;
+    /// Does a step of the search.
+    fn look(&mut self, run: &Run<'_>, step: &SearchStep) -> Result<Option<FramePose>> {
+        let (part, frame) = (&self.parts[step.part], step.frame);
+        let beside = |other: Other| Beside {
+            part: &self.parts[other.part],
+            from: &self.anchors[other.part][other.from],
+            pose: other.pose,
+        };
+        let found = match step.search {
+            Search::Whole { depth_mm } => {
+                let name = part.name();
+                run.say(format!("{name}: looked for in frame {}", frame + 1));
+                searched(run, part, frame, depth_mm, None)?
             }
-        }
-        Ok(())
-    }
-
-    /// How far away a component is that is known, mm: the others of its joint are there too.
-    fn depth(&self) -> Option<f64> {
-        let known = self.parts.iter().zip(&self.anchors);
-        let mut depths = known.filter_map(|(part, anchors)| {
-            let anchor = anchors.first()?;
-            Some(part.depth_of(&anchor.found.pose))
-        });
-        depths.next()
-    }
-
-    /// Looks for what is missing beside what was found; whether all is found then.
-    fn beside(&mut self, run: &Run<'_>) -> Result<bool> {
-        let alone = self.anchors.clone();
-        let others = others(&self.parts, &alone);
-        for (part, anchors) in self.parts.iter().zip(&mut self.anchors) {
-            if anchors.is_empty() {
-                *anchors = begin_beside(run, part, &others)?;
+            Search::Joint(other) => in_joint(run, part, frame, beside(other))?,
+            Search::Beside { other, depth_mm } => {
+                let (name, beside) = (part.name(), beside(other));
+                let place = format!("beside the {} in frame {}", beside.part.name(), frame + 1);
+                run.say(format!("{name}: looked for {place}"));
+                searched(run, part, frame, Some(depth_mm), Some(beside))?
             }
+            Search::Follow { .. } => None,
+        };
+        self.found.extend(found.map(|found| (*step, found)));
+        Ok(found)
+    }
+
+    fn tell_missing(&self, run: &Run<'_>) {
+        let each = self.parts.iter().zip(&self.anchors);
+        for (part, _) in each.filter(|(_, anchors)| anchors.is_empty()) {
+            let name = part.name();
+            run.say(format!("{name}: {NOWHERE}; click into it, or fix a pose"));
         }
-        Ok(self.is_whole())
     }
-
-    fn is_whole(&self) -> bool {
-        self.anchors.iter().all(|anchors| !anchors.is_empty())
-    }
-
-    fn is_empty(&self) -> bool {
-        self.anchors.iter().all(Vec::is_empty)
-    }
-
-    fn found(self) -> (Vec<Part<'s>>, Vec<Vec<Anchor>>) {
-        (self.parts, self.anchors)
-    }
-}
-
-fn is_tray(part: &Part<'_>) -> bool {
-    part.role() == Some(Role::Tibia)
-}
-
-/// Components with what is known of them.
-fn others<'o, 's>(
-    parts: &'o [Part<'s>],
-    known: &'o [Vec<Anchor>],
-) -> Vec<(&'o Part<'s>, &'o [Anchor])> {
-    let each = parts.iter().zip(known);
-    each.map(|(part, own)| (part, own.as_slice())).collect()
-}
-
-/// How well components are found in all: the sum of what the best frame of each scores.
-fn score(anchors: &[Vec<Anchor>]) -> f64 {
-    let scores = |anchors: &Vec<Anchor>| {
-        let each = anchors.iter().map(|anchor| anchor.found.score());
-        each.fold(0.0, f64::max)
-    };
-    anchors.iter().map(scores).sum()
 }
 
 /// How the film shows metal, by clicks and fixed poses.

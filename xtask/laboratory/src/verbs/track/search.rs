@@ -60,7 +60,7 @@ pub(super) fn clicked(
 pub(super) struct Beside<'b, 's> {
     pub(super) part: &'b Part<'s>,
     pub(super) from: &'b Anchor,
-    pub(super) pose: &'b Pose,
+    pub(super) pose: Pose,
 }
 
 /// The pose of a component in a frame that nobody clicked into, perhaps beside another that is known; `None` where none is good.
@@ -78,7 +78,7 @@ pub(super) fn searched(
     let key = format!("search/{}/{}/{frame}{known}", part.number, part.phase());
     run.step((part, frame), "searched", &key, || {
         let unknown = match beside {
-            Some(beside) => Some(beside.part.silhouette(beside.pose)?),
+            Some(beside) => Some(beside.part.silhouette(&beside.pose)?),
             None => None,
         };
         let unknown = unknown.as_ref().map(MaskBuffer::mask);
@@ -119,9 +119,9 @@ pub(super) fn in_joint(
     let key = format!("joint/{number}/{phase}/{frame}/{known}");
     let what = format!("looked for beside the {}", beside.part.name());
     run.step((part, frame), &what, &key, || {
-        let unknown = beside.part.silhouette(beside.pose)?;
+        let unknown = beside.part.silhouette(&beside.pose)?;
         let unknown = Some(unknown.mask());
-        let joint = InJoint::beside(other, beside.pose);
+        let joint = InJoint::beside(other, &beside.pose);
         let stop = &run.request.stop;
         part.see_beside(
             run.film,

@@ -1,0 +1,90 @@
+//! Components that are looked for, and the frames in which they are known.
+
+use heapless::Vec;
+
+use crate::math::Vector3;
+use crate::mesh::anatomy::KneeComponent;
+use crate::pose::Pose;
+
+/// So many frames in which a component is known lead to one that is missing.
+pub const LED: usize = 3;
+
+/// A frame in which a component is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownFrame {
+    /// Number of the frame, from 0.
+    pub frame: usize,
+    /// `camera_from_model`.
+    pub pose: Pose,
+    /// By what poses are compared ([`crate::follow::FramePose::score`]).
+    pub score: f64,
+    /// The first and the last frame beside it in which it is followed, once that was asked for.
+    pub(super) ends: Option<Ends>,
+}
+
+/// Frames with poses, where they are followed there.
+pub type Ends = [Option<(usize, Pose)>; 2];
+
+impl KnownFrame {
+    /// A pose in a frame.
+    #[must_use]
+    pub fn new(frame: usize, pose: Pose, score: f64) -> Self {
+        Self {
+            frame,
+            pose,
+            score,
+            ends: None,
+        }
+    }
+}
+
+/// A component that is looked for, as a film shows it in one way.
+#[derive(Clone, Debug)]
+pub struct Sought {
+    role: Option<KneeComponent>,
+    pub(super) is_limb: bool,
+    middle: Vector3,
+    pub(super) known: Vec<KnownFrame, LED>,
+}
+
+impl Sought {
+    /// A component with the role in the knee that it has, if any; `is_limb` where its shape tells which way it lies, so that its joint tells
+    /// where it is ([`crate::follow::Limb`]). `middle` is that of the model's box.
+    #[must_use]
+    pub fn new(role: Option<KneeComponent>, is_limb: bool, middle: Vector3) -> Self {
+        Self {
+            role,
+            is_limb: is_limb && role.is_some(),
+            middle,
+            known: Vec::new(),
+        }
+    }
+
+    /// Takes a frame in which it is known; of more than [`LED`] the first.
+    pub fn know(&mut self, known: KnownFrame) {
+        // Those for which there is no room lead nowhere.
+        let _ = self.known.push(known);
+    }
+
+    /// Frames in which it is known.
+    #[must_use]
+    pub fn known(&self) -> &[KnownFrame] {
+        &self.known
+    }
+
+    pub(super) fn is_tray(&self) -> bool {
+        self.role == Some(KneeComponent::Tibia)
+    }
+
+    pub(super) fn is_missing(&self) -> bool {
+        self.known.is_empty()
+    }
+
+    pub(super) fn leads(&self, to: &Self) -> bool {
+        self.is_limb && to.is_limb && self.role != to.role
+    }
+
+    pub(super) fn depth_mm(&self, pose: &Pose) -> f64 {
+        -pose.transform(&self.middle)[2]
+    }
+}
