@@ -5,7 +5,8 @@
 //! around it are searched. A [`Way`] leads from an [`Anchor`], a frame whose pose is known, over the frames beside it; where
 //! two ways meet, [`join_ways`] takes the better of both. [`mirrored_pose`] gives the rival on the other side of the mirror;
 //! [`choose_sides`] tells over the film which side is the right one, and [`runs_to_go_over`] where to go over to it; the same
-//! for poses that are no mirror image ([`elsewhere`]). Jumps are crossed from both sides (`Crossing`, feature `alloc`). Frames that then
+//! for poses that are no mirror image ([`elsewhere`]). Jumps are crossed from both sides (`Crossing`, feature `alloc`), before sides are chosen
+//! and at the end. Frames that then
 //! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
 //! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
@@ -35,15 +36,20 @@ mod following;
 mod frame_pose;
 mod in_joint;
 mod joint_search;
+#[cfg(feature = "alloc")]
+mod known_femur;
 mod look;
 mod meeting;
 mod motion;
 mod near;
+#[cfg(feature = "alloc")]
+mod other_margins;
 mod search_order;
 mod search_plan;
 #[cfg(feature = "alloc")]
 mod second_look;
 mod settle;
+mod side_margin;
 mod side_samples;
 mod sides;
 mod state;
@@ -61,20 +67,24 @@ pub use contrast::{Contrast, contrast};
 pub use crossing::{Crossing, frames_to_cross_from};
 pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
-pub use false_minimum::{ROUNDS, elsewhere_margins, leaves_less, runs_elsewhere};
+pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 #[cfg(feature = "alloc")]
 pub use film_reading::FilmReading;
 #[cfg(feature = "alloc")]
-pub use following::{Following, KnownFemur};
+pub use following::Following;
 pub use frame_pose::{
     FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
 };
 pub use in_joint::{BENDS, InJoint, Limb};
 pub use joint_search::JointSearch;
+#[cfg(feature = "alloc")]
+pub use known_femur::KnownFemur;
 pub use look::{Looked, Missing, look};
 pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
+#[cfg(feature = "alloc")]
+pub use other_margins::other_margins;
 pub use search_order::{TRIES, frames_to_search, run_to_search};
 pub use search_plan::{
     Ends, FAR, KnownFrame, LED, NOWHERE, Other, Search, SearchPlan, SearchStep, Sought, WAYS,
@@ -82,9 +92,8 @@ pub use search_plan::{
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};
 pub use settle::settled;
-pub use side_samples::{
-    SideMargin, SideSample, frames_for_sides, nearer_rival, runs_to_go_over, side_margin,
-};
+pub use side_margin::SideMargin;
+pub use side_samples::{SideSample, frames_for_sides, runs_to_go_over};
 pub use sides::{Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use subject::Subject;

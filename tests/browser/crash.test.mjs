@@ -197,6 +197,18 @@ async function hasEverything(page, work) {
   await drawn(page);
 }
 
+pageTest('what is kept is deleted from the empty page by two clicks', async (page) => {
+  await openSmall(page, 'one');
+  await page.keyboard.press('Shift+Alt+n');
+  await page.getByRole('button', { name: /^Delete one.* from this browser$/ }).click();
+  await page.getByRole('button', { name: /^Really delete one/ }).click();
+  await page.getByRole('region', { name: 'Earlier work in this browser' }).waitFor({ state: 'detached' });
+  await page.reload();
+  await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+  await drawn(page);
+  assert.equal(await page.getByRole('region', { name: 'Earlier work in this browser' }).count(), 0);
+});
+
 /** @param {Page} page @param {string} name */
 function cell(page, name) {
   return page.getByRole('table', { name: 'Frames and components' }).getByRole('button', { name, exact: true });

@@ -88,6 +88,8 @@ async function followed(page, t) {
   t.diagnostic(done.join('; '));
   assert.equal(count(done, /: followed(,|$)/), 2 * (FRAMES - 1), done.join('; '));
   assert.equal(count(done, /so far/), 0);
+  await atRest(page);
+  assert.deepEqual(page.workers().filter((worker) => /follow/.test(worker.url())), [], 'what a film needed is let go');
   await page.getByRole('radio', { name: 'Femur' }).click();
   for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
   await atRest(page);

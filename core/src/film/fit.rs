@@ -4,10 +4,11 @@
 //! `A`, `B` and `C` are linear and eliminated; the shift `d` is found by Gauss and Newton. Residuals are weighed by the
 //! noise of counted quanta and brought back to grey values on the average, so that curvatures can be compared.
 
-use super::model::{Drawn, at};
-use super::profile::{FilmProfile, READINGS};
+use super::lines::{INNER, POINTS, STEP};
+use super::model::Drawn;
+use super::profile::{FIRST_READING, FilmProfile, READING_STEP, READINGS};
 use crate::image::display::exp_quick;
-use crate::math::solve_spd;
+use crate::math::{floor, solve_spd};
 
 /// Residuals in grey values.
 pub(super) type Residuals = [f32; READINGS];
@@ -109,6 +110,30 @@ pub(super) fn search(profile: &FilmProfile, film: &Developed, drawn: &Drawn) -> 
     explain(profile, film, drawn, best.shift)
 }
 
+/// What is drawn where a profile is read, if its outline lies at `outline` pixels from the line's origin: [`at`] of each place. Readings
+/// are whole places apart, so all of them lie alike between two.
+fn read(drawn: &Drawn, outline: f64) -> Residuals {
+    const APART: usize = (READING_STEP / STEP) as usize;
+    const LENGTH: usize = APART * READINGS;
+    let first = (outline + FIRST_READING + INNER) / STEP;
+    let first = first.clamp(-(LENGTH as f64), (POINTS + LENGTH) as f64);
+    let low = floor(first);
+    let part = (first - low) as f32;
+    let low = low as isize;
+    let there = |place: isize| drawn[place.clamp(0, POINTS as isize - 1) as usize];
+    let near: [f32; LENGTH] = match usize::try_from(low)
+        .ok()
+        .and_then(|low| drawn.get(low..)?.first_chunk())
+    {
+        Some(near) => *near,
+        None => core::array::from_fn(|k| there(low + k as isize)),
+    };
+    core::array::from_fn(|k| {
+        let (a, b) = (near[APART * k], near[APART * k + 1]);
+        a + part * (b - a)
+    })
+}
+
 struct Trial {
     explained: Explained,
     /// By how much the shift should grow.
@@ -118,19 +143,19 @@ struct Trial {
 impl Trial {
     fn at(profile: &FilmProfile, film: &Developed, drawn: &Drawn, shift: f64) -> Option<Self> {
         let mut columns = [[0.0f64; 3]; READINGS];
-        let mut slopes = [0.0f64; READINGS];
         let (mut normal, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
+        let read = |more| read(drawn, f64::from(profile.outline) - shift + more);
+        let (passed, before, after) = (read(0.0), read(-NEAR), read(NEAR));
         for (k, column) in columns.iter_mut().enumerate() {
             let along = FilmProfile::along(k) - shift;
-            let place = along + f64::from(profile.outline);
-            let passed = f64::from(at(drawn, place));
-            slopes[k] = f64::from(at(drawn, place + NEAR) - at(drawn, place - NEAR)) / (2.0 * NEAR);
+            let passed = f64::from(passed[k]);
             let weight = f64::from(film.weight[k]);
             *column = [weight, weight * passed, weight * passed * along / 6.0];
             let wanted = weight * f64::from(film.intensity[k]);
             for (row, &a) in column.iter().enumerate() {
                 right[row] += a * wanted;
-                for (sum, &b) in normal[row].iter_mut().zip(column.iter()) {
+                // Solvers read the lower triangle alone.
+                for (sum, &b) in normal[row].iter_mut().zip(&column[..=row]) {
                     *sum += a * b;
                 }
             }
@@ -151,11 +176,12 @@ impl Trial {
             let residual = weight * f64::from(film.intensity[k]) - model;
             residuals[k] = residual as f32;
             let along = FilmProfile::along(k) - shift;
-            let slope = -weight * slopes[k] * (solution[1] + solution[2] * along / 6.0);
+            let slope = f64::from(after[k] - before[k]) / (2.0 * NEAR);
+            let slope = -weight * slope * (solution[1] + solution[2] * along / 6.0);
             let column = [column[0], column[1], column[2], slope];
             for (row, &a) in column.iter().enumerate() {
                 gains[row] += a * residual;
-                for (sum, &b) in with_shift[row].iter_mut().zip(&column) {
+                for (sum, &b) in with_shift[row].iter_mut().zip(&column[..=row]) {
                     *sum += a * b;
                 }
             }
@@ -166,5 +192,25 @@ impl Trial {
             explained: Explained { residuals, shift },
             step,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::model::at;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn what_is_drawn_is_read_place_by_place(
+            values in proptest::collection::vec(-1.0..1.0f32, POINTS), outline in -60.0..60.0f64,
+        ) {
+            let drawn: Drawn = core::array::from_fn(|k| values[k]);
+            for (k, value) in read(&drawn, outline).into_iter().enumerate() {
+                let one = at(&drawn, outline + FilmProfile::along(k));
+                prop_assert!((value - one).abs() < 1e-4, "{} {} {}", k, value, one);
+            }
+        }
     }
 }

@@ -46,6 +46,8 @@ pub struct PathLine {
     next: [u16; SPANNED],
     /// The triangle that was added last, from 1.
     last: u32,
+    /// The first place that is measured; those before it are taken to be as it is.
+    first: u16,
     /// Least and greatest depth of the surface behind the origin, mm; the second is 0 where there is none.
     depths: [f32; 2],
     /// mm.
@@ -84,10 +86,17 @@ impl PathLine {
             direction,
             next: [NONE; SPANNED],
             last: 0,
+            first: 0,
             depths: [f32::INFINITY, 0.0],
             paths: [0.0; POINTS],
             open: [0; POINTS],
         }
+    }
+
+    /// The same, but what lies before a place is left out: it is taken to be as there.
+    pub(crate) fn starting_at(mut self, first: usize) -> Self {
+        self.first = first.min(ORIGIN) as u16;
+        self
     }
 
     /// The path through the part at each place, mm. `None` where the surface is not closed under the line.
@@ -104,6 +113,10 @@ impl PathLine {
     pub fn depths(&self) -> Option<[f64; 2]> {
         let depths = self.depths.map(f64::from);
         (depths[1] > 0.0).then_some(depths)
+    }
+
+    fn measured(&self) -> Range<usize> {
+        usize::from(self.first)..POINTS
     }
 
     fn pixel(&self, point: usize) -> [i32; 2] {
@@ -139,7 +152,8 @@ impl PathLine {
         if cuts[0].0 > cuts[1].0 {
             cuts.swap(0, 1);
         }
-        let [start, end] = cuts.map(|(along, _)| first_place(along));
+        let places = self.measured();
+        let [start, end] = cuts.map(|(along, _)| first_place(along, &places));
         if start < end {
             let nearness = nearness();
             let ends = cuts.map(|(along, cut)| [along, cut.of(&nearness)]);
@@ -196,11 +210,11 @@ impl PathLine {
 /// the third power.
 const NEARLY_LINEAR: f64 = 4e-3;
 
-/// Number of the first place that is not before this one along a line, pixels; [`POINTS`] beyond the last.
-fn first_place(along: f64) -> usize {
+/// Number of the first of these places that is not before this one along a line, pixels; their end where none is.
+fn first_place(along: f64, places: &Range<usize>) -> usize {
     let place = (along + INNER) / STEP;
-    let whole = place.clamp(0.0, POINTS as f64) as usize;
-    (whole + usize::from((whole as f64) < place)).min(POINTS)
+    let whole = place.clamp(places.start as f64, places.end as f64) as usize;
+    (whole + usize::from((whole as f64) < place)).min(places.end)
 }
 
 /// Where a line cuts an edge of a triangle.
@@ -304,13 +318,13 @@ fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
     // All places of a line lie between its ends.
     let ends = lines
         .iter()
-        .flat_map(|line| [0, POINTS - 1].map(|point| line.pixel(point)));
+        .flat_map(|line| [usize::from(line.first), POINTS - 1].map(|point| line.pixel(point)));
     let mut tiles = Tiles::around(ends, LEAST_PLACES);
     heads.fill(NONE);
     for (number, line) in lines.iter_mut().enumerate() {
-        *line = PathLine::at(line.origin, line.direction);
+        *line = PathLine::at(line.origin, line.direction).starting_at(line.measured().start);
         let (mut entered, mut before) = (0, None);
-        let mut points = 0..POINTS;
+        let mut points = line.measured();
         while let Some(point) = points.next() {
             let tile = tiles.mark(line.pixel(point));
             // A tile that has both ends of a piece has all of it.
@@ -351,6 +365,10 @@ fn close(lines: &mut [PathLine], camera: &Camera) {
         // Of a surface that is inside out sums are negative.
         for path in &mut line.paths {
             *path = path.abs() * slant;
+        }
+        let first = usize::from(line.first);
+        if let Some((before, [path, ..])) = line.paths.split_at_mut_checked(first) {
+            before.fill(*path);
         }
     }
 }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::cell::Cell;
 use super::conclusion::Conclusion;
-use super::side_samples::SideMargin;
+use super::side_margin::SideMargin;
 use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::math::Vector3;
 

@@ -5,7 +5,7 @@ use core::fmt;
 use super::cell::Cell;
 use super::look::Missing;
 use super::motion::between;
-use super::side_samples::SideMargin;
+use super::side_margin::SideMargin;
 use super::state::State;
 use super::trust::{Distrust, FrameEvidence, Trust};
 use crate::math::Vector3;

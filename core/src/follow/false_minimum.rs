@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
-use super::side_samples::{SideMargin, SideSample, runs_to_go_over, side_margin};
+use super::side_margin::{SideMargin, side_margin};
+use super::side_samples::{SideSample, runs_to_go_over};
 use super::sides::{Side, SideEvidence, SideStep, choose_sides};
 use crate::math::ln;
 
@@ -26,8 +27,7 @@ pub fn runs_elsewhere(samples: &[SideSample], frames: usize) -> Vec<(Range<usize
 }
 
 /// By how much what was seen elsewhere is less likely than the trail, in each frame of a film; `None` where nothing was.
-#[must_use]
-pub fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Option<SideMargin>> {
+pub(super) fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Option<SideMargin>> {
     let steps = elsewhere_steps(samples);
     let margin = |frame| side_margin(samples, &steps, frame);
     (0..frames).map(margin).collect()

@@ -17,31 +17,15 @@ use super::conclusion::Conclusion;
 use super::crossing::{Crossing, frames_to_cross_from};
 use super::false_minimum::ROUNDS;
 use super::frame_pose::FramePose;
+use super::known_femur::KnownFemur;
 use super::search_order::{frames_to_search, run_to_search};
 use super::second_look::{SecondLook, second_looks};
 use super::side_samples::SideSample;
 use super::sides::SideStep;
 use super::subject::Subject;
-use crate::finder::choice::Counterpart;
 use crate::math::Vector3;
 use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineError, RefineMemory};
-
-/// What is known of the other component when sides are chosen.
-#[derive(Clone, Debug)]
-pub struct KnownFemur {
-    /// Femoral poses of all frames, in the field's axes.
-    pub poses: Vec<Option<Pose>>,
-    /// The field's axes in the followed model's: `model_from_field`.
-    pub axes: Pose,
-}
-
-impl KnownFemur {
-    fn tilt_deg(&self, frame: usize, pose: &Pose) -> Option<f64> {
-        let femur = (*self.poses.get(frame)?)?;
-        Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&self.axes)))
-    }
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
@@ -49,6 +33,8 @@ enum Phase {
     Way,
     /// Runs of frames in which it was not found are searched from this frame on.
     Search(usize),
+    /// Jumps of the way are crossed: sides are chosen by what its frames say, and of a way that lies in small minima they say little.
+    CrossWay,
     /// Waits for [`Following::choose_sides`].
     Followed,
     Sides,
@@ -285,7 +271,11 @@ impl Following {
     #[must_use]
     pub fn conclude(&self, other_depths_mm: &[Option<f64>]) -> Vec<Conclusion> {
         let margins = self.side_margins();
-        conclude(&self.cells, &margins, other_depths_mm, &self.middle)
+        let mut film = conclude(&self.cells, &margins, other_depths_mm, &self.middle);
+        if let Some(femur) = &self.femur {
+            femur.distrust_impossible(&mut film);
+        }
+        film
     }
 
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
@@ -297,7 +287,11 @@ impl Following {
             }
             Phase::Search(from) => match self.begin_search(from) {
                 Some(run) => self.phase = Phase::Search(run.end),
-                None => self.phase = Phase::Followed,
+                None => self.begin_to_cross(Phase::CrossWay),
+            },
+            Phase::CrossWay => match self.cross_next() {
+                true => {}
+                false => self.phase = Phase::Followed,
             },
             Phase::Sides if !self.may_choose => return None,
             Phase::Sides => {
@@ -314,9 +308,12 @@ impl Following {
                     self.see_other_sides();
                     self.phase = Phase::Sides;
                 }
-                false => self.begin_to_cross(),
+                false => self.begin_to_cross(Phase::Cross),
             },
-            Phase::Cross => self.cross_next(),
+            Phase::Cross => match self.cross_next() {
+                true => {}
+                false => self.look_again_at_what_stands_out(),
+            },
             Phase::Again => self.phase = Phase::Over,
             Phase::Followed | Phase::Over | Phase::Compare => return None,
         }
@@ -326,23 +323,27 @@ impl Following {
     fn leave_false_minima(&mut self) {
         match self.begin_elsewhere() {
             true => self.phase = Phase::GoElsewhere,
-            false => self.begin_to_cross(),
+            false => self.begin_to_cross(Phase::Cross),
         }
     }
 
-    fn begin_to_cross(&mut self) {
+    fn begin_to_cross(&mut self, phase: Phase) {
         self.to_cross = frames_to_cross_from(&self.cells, &self.middle).into();
-        self.phase = Phase::Cross;
+        self.phase = phase;
     }
 
-    /// Crosses the next jump, or looks again at what stands out, where none is left.
-    fn cross_next(&mut self) {
-        if let Some((from, forward)) = self.to_cross.pop_front() {
-            let crossing = Crossing::over(&self.cells, from, forward, &self.middle);
-            self.tasks
-                .extend(crossing.map(Box::new).map(Task::Crossing));
-            return;
-        }
+    /// Crosses the next jump; whether one was left.
+    fn cross_next(&mut self) -> bool {
+        let Some((from, forward)) = self.to_cross.pop_front() else {
+            return false;
+        };
+        let crossing = Crossing::over(&self.cells, from, forward, &self.middle);
+        self.tasks
+            .extend(crossing.map(Box::new).map(Task::Crossing));
+        true
+    }
+
+    fn look_again_at_what_stands_out(&mut self) {
         let looks = second_looks(&self.cells, &self.middle).into_iter();
         let looks = looks.filter(|look| self.range.contains(&look.frame));
         self.tasks.extend(looks.map(Box::new).map(Task::Again));

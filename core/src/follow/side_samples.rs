@@ -59,7 +59,7 @@ impl SideSample {
     }
 
     /// The other pose; none where a person has chosen.
-    fn free(&self) -> Option<FramePose> {
+    pub(super) fn free(&self) -> Option<FramePose> {
         self.other.filter(|_| !self.fixed)
     }
 
@@ -117,39 +117,6 @@ fn best_other(samples: &[SideSample]) -> Option<Anchor> {
     others.max_by(|a, b| a.found.score().total_cmp(&b.found.score()))
 }
 
-/// By how much another pose of a frame is less likely than its own.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SideMargin {
-    /// What the other pose is.
-    pub rival: Rival,
-    /// 1 is what a frame says that decides by itself.
-    pub margin: f64,
-}
-
-/// By how much the other pose of a frame is less likely, by the nearest frame that was seen with it; `None` where there is
-/// none.
-#[must_use]
-pub fn side_margin(samples: &[SideSample], steps: &[SideStep], frame: usize) -> Option<SideMargin> {
-    let away = |&k: &usize| samples[k].frame.abs_diff(frame);
-    let nearest = (0..samples.len().min(steps.len())).min_by_key(away)?;
-    let rival = samples[nearest].rival;
-    samples[nearest].free()?;
-    let step = &steps[nearest];
-    let margin = match (rival, step.side) {
-        // Nothing went over to what leaves less.
-        (Rival::Elsewhere, Side::Mirrored) => 0.0,
-        _ => step.margin,
-    };
-    Some(SideMargin { rival, margin })
-}
-
-/// The more likely of two other poses of a frame.
-#[must_use]
-pub fn nearer_rival(one: Option<SideMargin>, other: Option<SideMargin>) -> Option<SideMargin> {
-    let both = one.into_iter().chain(other);
-    both.min_by(|one, other| one.margin.total_cmp(&other.margin))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -176,7 +143,5 @@ mod tests {
         let runs: Vec<(Range<usize>, Anchor)> = runs_to_go_over(&samples, &steps, 24).collect();
         assert_eq!(runs.len(), 1);
         assert_ne!(runs[0].1.frame, 0);
-        assert_eq!(side_margin(&samples, &steps, 1), None);
-        assert!(side_margin(&samples, &steps, 9).is_some());
     }
 }

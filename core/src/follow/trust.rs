@@ -4,9 +4,10 @@ use core::fmt;
 
 use super::frame_pose::FramePose;
 use super::motion::between;
-use super::side_samples::SideMargin;
+use super::side_margin::SideMargin;
 use super::sides::Rival;
 use super::trail::apart;
+use crate::joint::impossible::Impossible;
 use crate::math::Vector3;
 use crate::mesh::anatomy::KneeComponent;
 use crate::pose::Pose;
@@ -115,6 +116,8 @@ pub enum Distrust {
     Behind(f64),
     /// The model has the shape of this component, which is the other one.
     Shape(KneeComponent),
+    /// Its joint with the femur would do this, which no knee does.
+    Knee(Impossible),
 }
 
 impl Distrust {
@@ -132,6 +135,7 @@ impl Distrust {
             Self::Undetermined(_) => "undetermined",
             Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
             Self::Shape(_) => "shape",
+            Self::Knee(_) => "joint",
         }
     }
 }
@@ -192,6 +196,7 @@ impl fmt::Display for Distrust {
                 f,
                 "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
             ),
+            Self::Knee(what) => what.fmt(f),
             Self::Shape(shape) => {
                 let is = match shape {
                     KneeComponent::Femur => "femoral component",

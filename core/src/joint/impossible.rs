@@ -3,7 +3,9 @@
 use core::fmt;
 use core::ops::RangeInclusive;
 
-use crate::joint::numbers::{NUMBERS, place};
+use crate::joint::kinematics::Side;
+use crate::joint::numbers::{NUMBERS, of_pose, place};
+use crate::pose::Pose;
 
 /// What a knee with an implant may do, with room for axes that are some degrees off. Judgements: deep kneeling bends it to 155 degrees,
 /// and kneeling turns it by 30.
@@ -107,6 +109,17 @@ pub fn impossible(numbers: &[f64; NUMBERS]) -> Option<Impossible> {
         .or_else(before)
         .or_else(beside)
         .or_else(above)
+}
+
+/// What no knee of either side of the body does with components at this relative pose (`femur_from_tibia`): bending, tilting or turning.
+#[must_use]
+pub fn impossible_pose(relative: &Pose) -> Option<Impossible> {
+    let of = |side: Side| {
+        let mut numbers = [f64::NAN; NUMBERS];
+        numbers[..place::MEDIAL_AP].copy_from_slice(&of_pose(relative, side));
+        impossible(&numbers)
+    };
+    of(Side::Right).and(of(Side::Left))
 }
 
 /// The largest of a frame's translations by the field's convention, mm, where one is larger than components of a knee allow: the origins of

@@ -35,14 +35,15 @@ impl<'l> DrawnEdges<'l> {
     ) -> Result<Self, RefineError> {
         let film = view.target.film().filter(|_| stage.drawn);
         let filter = film.map(EdgeFilter::from);
-        if filter.is_none() {
+        let Some(first_place) = filter.as_ref().map(EdgeFilter::first) else {
             return Ok(Self { filter, lines: &[] });
-        }
+        };
         let lines = first("lines across the outline", border.len(), memory.lines)?;
         for (line, sample) in lines.iter_mut().zip(&mut *border) {
             // It stands for those that are left out.
             sample.weight *= stage.every.unwrap_or(1) as f32;
-            *line = PathLine::at(sample.place(), sample.normal().map(f64::from));
+            let across = PathLine::at(sample.place(), sample.normal().map(f64::from));
+            *line = across.starting_at(first_place);
         }
         measure(model, view.camera, pose, scratch, lines, memory.heads)?;
         for (line, sample) in lines.iter().zip(border) {

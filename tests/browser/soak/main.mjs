@@ -1,21 +1,15 @@
 /** Random work in one page for as long as one likes, and what it holds in memory: `cargo xtask soak` starts it. */
 import assert from 'node:assert/strict';
 import { argv, exit } from 'node:process';
-import { atRest, browser, openWindow, until, visit, watch } from '../support/browser.mjs';
-import { exportSheet, openExport, savedFile } from '../support/exporting.mjs';
+import { atRest, browser, openWindow, visit, watch } from '../support/browser.mjs';
 import { MemoryOf } from '../support/memory.mjs';
-import * as panel from '../support/panel.mjs';
-import { Stage } from '../support/stage.mjs';
-import { trueOutline } from '../support/study.mjs';
+import { randomOf } from '../support/random.mjs';
 import * as tracing from '../support/tracing.mjs';
+import { RandomWork } from './work.mjs';
 
-/** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('../support/memory.mjs').Memory} Memory */
-/** @typedef {'femur' | 'tibia'} Component */
 
 const [, , minutes = '30', seed = '1'] = argv;
-const FRAMES = 8;
-const COMPONENTS = /** @type {const} */ (['femur', 'tibia']);
 /** After so long, and as often as everything was done, what is held is compared with what is held at the end: memory of WebAssembly never shrinks. */
 const SETTLED = { ms: 5 * 60_000, passes: 3 };
 /** Between looks at the memory. */
@@ -29,8 +23,7 @@ const since = () => Date.now() - started;
 const page = await openWindow({ serviceWorkers: 'block', acceptDownloads: true });
 const troubles = watch(page);
 const memory = await MemoryOf.of(page);
-/** It is loaded anew again and again. */
-const other = await page.context().newPage();
+const work = new RandomWork(page, await page.context().newPage(), random);
 await page.bringToFront();
 /** @type {Record<string, number>} */
 const done = {};
@@ -40,12 +33,10 @@ const looks = [];
 let passes = 0;
 /** @type {string[]} */
 let left = [];
-/** @type {Record<string, () => Promise<void>>} */
-const KINDS = { click, drag, follow, undo, export: save, reload, open };
 
 await visit(page);
 await tracing.openDemonstration(page);
-console.log('minute  pass   page MB  workers MB  of  WASM MB');
+console.log('minute  pass   page MB  buffers MB  workers MB  of  WASM MB  nodes  listeners');
 await look();
 while (since() < Number(minutes) * 60_000) {
   await round();
@@ -59,11 +50,11 @@ exit(isFlat() ? 0 : 1);
 
 /** Some random work, of which all is undone or left behind. */
 async function round() {
-  if (left.length === 0) left = Object.keys(KINDS);
+  if (left.length === 0) left = Object.keys(work.kinds);
   const [name] = left.splice(Math.floor(random() * left.length), 1);
   done[name] = (done[name] ?? 0) + 1;
   try {
-    await KINDS[name]();
+    await work.kinds[name]();
     if (left.length === 0) passes++;
   } catch (error) {
     console.log(`${name}: ${error instanceof Error ? error.message : error}`);
@@ -73,22 +64,29 @@ async function round() {
 
 /** The same state each time: a new work with the demonstration, and its libraries. */
 async function look() {
-  await open();
+  await work.open();
   await atRest(page);
-  looks.push({ ms: since(), passes, held: await memory.now() });
-  const { ms, held } = looks.at(-1) ?? assert.fail();
+  const held = await memory.now();
+  const ms = since();
+  looks.push({ ms, passes, held });
   const mega = (/** @type {number} */ bytes) => (bytes / 1e6).toFixed(2);
-  console.log(`${(ms / 60_000).toFixed(1).padStart(6)}${String(passes).padStart(6)}${mega(held.page).padStart(10)}${mega(held.workers).padStart(12)}${String(held.count).padStart(4)}${mega(held.wasm).padStart(9)}`);
+  /** @type {readonly (readonly [string | number, number])[]} */
+  const cells = [[(ms / 60_000).toFixed(1), 6], [passes, 6], [mega(held.page), 10], [mega(held.buffers), 12], [mega(held.workers), 12], [held.count, 4], [mega(held.wasm), 9], [held.nodes, 7], [held.listeners, 11]];
+  console.log(cells.map(([value, width]) => String(value).padStart(width)).join(''));
 }
 
 /** At the end no more than when it had settled, in each part. */
 function isFlat() {
   const settled = looks.find(({ ms, passes }) => ms >= SETTLED.ms && passes >= SETTLED.passes);
-  if (!settled || settled === looks.at(-1)) {
+  const last = looks.at(-1);
+  if (!settled || !last || settled === last) {
     console.log(`not told: everything was done ${passes} times; let it work longer`);
     return false;
   }
-  const last = looks.at(-1) ?? settled;
+  for (const name of Object.keys(last.held.parts)) {
+    const [before, after] = [settled, last].map(({ held }) => held.parts[name]);
+    if (before && after) console.log(`  ${name}: WASM ${(before.wasm / 1e6).toFixed(2)} and ${(after.wasm / 1e6).toFixed(2)} MB, heap ${(before.heap / 1e6).toFixed(2)} and ${(after.heap / 1e6).toFixed(2)}`);
+  }
   const parts = /** @type {const} */ (['page', 'workers', 'wasm']);
   const told = parts.map((part) => {
     const [before, after] = [settled.held[part], last.held[part]];
@@ -97,94 +95,4 @@ function isFlat() {
     return after <= MOST * before;
   });
   return told.every((flat) => flat);
-}
-
-/** A new work. Earlier ones stay. */
-async function open() {
-  await page.keyboard.press('Escape');
-  await page.keyboard.press('Shift+Alt+n');
-  await tracing.openDemonstration(page);
-}
-
-/** One click into a component of some frame. */
-async function click() {
-  const component = COMPONENTS[Math.floor(random() * 2)];
-  const frame = 1 + Math.floor(random() * FRAMES);
-  await page.getByRole('slider', { name: 'Frame', exact: true }).fill(String(frame - 1));
-  await page.getByRole('radio', { name: component === 'femur' ? 'Femur' : 'Tibia' }).click();
-  await page.keyboard.press('o');
-  await atRest(page);
-  const stage = new Stage(page);
-  await stage.learn();
-  await stage.click(tracing.insideOf(await trueOutline(component, frame)));
-  await atRest(page);
-}
-
-/** A point of a traced outline, along and back. */
-async function drag() {
-  await page.getByRole('slider', { name: 'Frame', exact: true }).fill('0');
-  await page.getByRole('radio', { name: 'Femur' }).click();
-  const stage = new Stage(page);
-  const outline = await trueOutline('femur', 1);
-  const isOpen = (await panel.cells(page)).some((cell) => /^Frame 1, femur: empty/.test(cell));
-  await stage.learn();
-  if (isOpen) await stage.trace(outline);
-  await page.keyboard.press('e');
-  await stage.learn();
-  const [column, row] = outline[Math.floor(random() * outline.length)];
-  await stage.drag([column, row], [column + 6 * random() - 3, row + 6 * random() - 3]);
-  await atRest(page);
-}
-
-async function follow() {
-  const cells = await panel.cells(page);
-  if (!cells.some((cell) => /: (posed|followed)/.test(cell))) await click();
-  await page.keyboard.press('Shift+G');
-  // Some are stopped on the way.
-  if (random() < 0.3) {
-    await page.waitForTimeout(1000 * random());
-    await page.keyboard.press('Shift+G');
-  }
-  await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'the film to be followed');
-  await atRest(page);
-}
-
-async function undo() {
-  for (let step = Math.floor(8 * random()); step >= 0; step--) await page.keyboard.press('Control+z');
-  await atRest(page);
-  for (let step = Math.floor(3 * random()); step > 0; step--) await page.keyboard.press('Control+y');
-  await atRest(page);
-}
-
-async function save() {
-  const kinds = [['Session'], ['Poses', 'For commands'], ['Session', 'With images and models'], ['Session', 'Study file']];
-  const [kind, ...choices] = kinds[Math.floor(random() * kinds.length)];
-  const hasPoses = (await panel.cells(page)).some((cell) => /: (posed|followed)/.test(cell));
-  if (kind === 'Poses' && !hasPoses) return;
-  await openExport(page, kind, ...choices);
-  await savedFile(page);
-  // Who has saved a session is done; other files leave the sheet open.
-  const sheet = exportSheet(page);
-  if (await sheet.count()) await page.keyboard.press('Escape');
-  await sheet.waitFor({ state: 'detached' });
-}
-
-/** Another page, which finds the work that is kept. */
-async function reload() {
-  await other.goto(page.url());
-  await until(() => other.evaluate(() => 'fluoropose' in globalThis), (here) => here, 'the other page to start');
-  await atRest(other);
-  await other.goto('about:blank');
-  await page.bringToFront();
-}
-
-/** Mulberry32. @param {number} from */
-function randomOf(from) {
-  let state = from >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let mixed = Math.imul(state ^ (state >>> 15), state | 1);
-    mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
 }

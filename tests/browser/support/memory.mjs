@@ -3,12 +3,13 @@ import assert from 'node:assert/strict';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('playwright-core').CDPSession} Session */
-/** @typedef {{ page: number, workers: number, wasm: number, count: number }} Memory bytes, and how many workers there are */
+/** @typedef {{ heap: number, wasm: number, buffers: number }} Held bytes; `buffers`: of typed arrays, WebAssembly's memories aside */
+/** @typedef {{ page: number, workers: number, wasm: number, buffers: number, count: number, nodes: number, listeners: number, parts: Record<string, Held> }} Memory bytes; how many workers, nodes of the document and listeners there are; and the page and each worker by its name */
 
 /** Asks the debugger of a page or of a worker. @typedef {(method: string, params?: object) => Promise<any>} Ask */
 
 export class MemoryOf {
-  /** @type {Map<string, Ask>} */
+  /** @type {Map<string, { name: string, ask: Ask }>} */
   #workers = new Map();
   /** @type {Map<string, (message: any) => void>} answers that are waited for */
   #waiting = new Map();
@@ -18,7 +19,7 @@ export class MemoryOf {
   constructor(session) {
     /** @type {Ask} */
     this.page = (method, params) => session.send(/** @type {any} */ (method), /** @type {any} */ (params));
-    session.on('Target.attachedToTarget', ({ sessionId }) => this.#workers.set(sessionId, this.#asking(session, sessionId)));
+    session.on('Target.attachedToTarget', ({ sessionId, targetInfo }) => this.#workers.set(sessionId, { name: nameOf(targetInfo.url), ask: this.#asking(session, sessionId) }));
     session.on('Target.detachedFromTarget', ({ sessionId }) => this.#workers.delete(sessionId));
     session.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => {
       const answer = JSON.parse(message);
@@ -37,10 +38,13 @@ export class MemoryOf {
   /** After everything that nobody holds has been let go. @returns {Promise<Memory>} */
   async now() {
     const page = await heldBy(this.page);
-    const workers = await Promise.all([...this.#workers.values()].map((ask) => heldBy(ask).catch(() => null)));
-    const alive = workers.filter((worker) => worker !== null);
-    const sum = (/** @type {'heap' | 'wasm'} */ part) => alive.reduce((total, worker) => total + worker[part], 0);
-    return { page: page.heap, workers: sum('heap'), wasm: page.wasm + sum('wasm'), count: alive.length };
+    const { nodes, jsEventListeners } = await this.page('Memory.getDOMCounters');
+    const asked = [...this.#workers.values()].map(async ({ name, ask }) => /** @type {const} */ ([name, await heldBy(ask).catch(() => null)]));
+    const workers = (await Promise.all(asked)).flatMap(([name, held]) => (held ? [/** @type {const} */ ([name, held])] : []));
+    const sum = (/** @type {'heap' | 'wasm' | 'buffers'} */ part) => workers.reduce((total, [, held]) => total + held[part], 0);
+    // There may be two of a name.
+    const parts = Object.fromEntries([['page', page], ...workers.map(([name, held], at) => [`${name} ${at + 1}`, held])]);
+    return { page: page.heap, workers: sum('heap'), wasm: page.wasm + sum('wasm'), buffers: page.buffers + sum('buffers'), count: workers.length, nodes, listeners: jsEventListeners, parts };
   }
 
   /** @param {Session} session @param {string} sessionId @returns {Ask} */
@@ -63,11 +67,16 @@ export class MemoryOf {
   }
 }
 
-/** @param {Ask} ask */
+/** Of the script that a worker was started with, without the digest of what is in it. @param {string} url */
+function nameOf(url) {
+  return /([\w]+)(-[\w-]+)?\.js$/.exec(url)?.[1] ?? url;
+}
+
+/** @param {Ask} ask @returns {Promise<Held>} */
 async function heldBy(ask) {
   await ask('HeapProfiler.enable');
   await ask('HeapProfiler.collectGarbage');
-  const { usedSize } = await ask('Runtime.getHeapUsage');
+  const { usedSize, backingStorageSize } = await ask('Runtime.getHeapUsage');
   const group = { objectGroup: 'memory' };
   const { result } = await ask('Runtime.evaluate', { expression: 'WebAssembly.Memory.prototype', ...group });
   const { objects } = await ask('Runtime.queryObjects', { prototypeObjectId: result.objectId, ...group });
@@ -75,5 +84,5 @@ async function heldBy(ask) {
   const summed = await ask('Runtime.callFunctionOn', { objectId: objects.objectId, functionDeclaration: sum, returnByValue: true });
   await ask('Runtime.releaseObjectGroup', group);
   assert(typeof summed.result.value === 'number', 'the debugger tells what WebAssembly has');
-  return { heap: usedSize, wasm: summed.result.value };
+  return { heap: usedSize, wasm: summed.result.value, buffers: backingStorageSize ?? 0 };
 }

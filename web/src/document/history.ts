@@ -29,6 +29,9 @@ interface Step {
 
 const DEPTH = 2000;
 
+/** Undo goes back into so many works, the present one among them; the empty page between two is one more. Others are in the browser's storage. */
+const WORKS = 4;
+
 export function startHistory(doc: Doc): History {
   return { past: [], present: doc, future: [], gestureStart: null, saved: doc, amended: new Amended() };
 }
@@ -127,5 +130,10 @@ function pushed(past: readonly Step[], command: Omit<Command, 'apply'>, before: 
   const mergeKey = command.mergeKey ?? null;
   if (last && mergeKey !== null && last.mergeKey === mergeKey) return past;
   const step: Step = { label: command.label, place: command.place ?? null, mergeKey, doc: before };
-  return [...past.slice(-(DEPTH - 1)), step];
+  return ofLatestWorks([...past.slice(-(DEPTH - 1)), step]);
+}
+
+function ofLatestWorks(steps: readonly Step[]): readonly Step[] {
+  const works = new Set(['']);
+  return steps.slice(1 + steps.findLastIndex(({ doc }) => works.add(doc.work).size > 1 + WORKS));
 }

@@ -16,7 +16,7 @@ import type { FilmLater } from './film_later';
 import type { FirstPoses } from './first_poses';
 import { asJob, sentenceOf, type Services } from './services';
 
-type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
 
 type Film = Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside'>;
 
@@ -91,6 +91,8 @@ export class Follower {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
     } finally {
       this.#abort = null;
+      // What a film needs, some tens of MB, is let go with its workers; the next call starts others.
+      for (const component of COMPONENT_NAMES) this.#workers[component].dispose();
       store.show({ following: false });
     }
   }

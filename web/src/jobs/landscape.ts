@@ -12,6 +12,9 @@ import { sentenceOf } from './services';
 
 export type Scored = { readonly key: string; readonly facts: LandscapeFacts } | { readonly key: string; readonly refusal: string };
 
+/** So many are kept, of the outlines that were scored last. */
+const KEPT = 16;
+
 /** How long an outline has to be at rest before all views are scored, ms. */
 const REST = 200;
 
@@ -19,7 +22,7 @@ const REST = 200;
 export class Landscapes {
   readonly #store: Store;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
-  readonly #scored = new WeakMap<Outline, Scored>();
+  readonly #scored = new Map<Outline, Scored>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #pauseIsOver: () => void = () => undefined;
   #busy = false;
@@ -73,6 +76,7 @@ export class Landscapes {
       if (!(error instanceof Aborted)) this.#scored.set(outline, { key, refusal: sentenceOf(error) });
     } finally {
       this.#busy = false;
+      for (const oldest of [...this.#scored.keys()].slice(0, -KEPT)) this.#scored.delete(oldest);
       // No part of the state: the views are notified all the same.
       this.#store.show({});
     }

@@ -28,7 +28,7 @@ interface Task {
 /** What the document does not keep of a candidate. */
 export type Detail = Pick<MatchedCandidate, 'pose' | 'picture' | 'atBorder' | 'start'>;
 
-/** What a match leaves besides poses: pictures for the panel. Kept as long as its outline is. */
+/** What a match leaves besides poses: pictures for the panel. Kept as long as its outline is, details of the latest. */
 export interface Findings {
   readonly key: string;
   readonly details: readonly Detail[];
@@ -43,6 +43,9 @@ export interface Findings {
   /** Why the tried refinement gave nothing, completes "Not refined: ...". */
   readonly refusal: string | null;
 }
+
+/** Of so many outlines pictures are kept: undo may lead to thousands. What is looked at again without any is asked again. */
+export const PICTURED = 64;
 
 const NOTHING_FOUND = { details: [], canonicalArea: 0, clipped: false, partial: false, milliseconds: 0 };
 
@@ -66,6 +69,8 @@ export class Poser {
   /** Outlines that a worker stopped at. */
   readonly #stoppedAt = new WeakSet<Outline>();
   readonly #findings = new WeakMap<Outline, Findings>();
+  /** What they are kept of; the latest comes last. */
+  readonly #pictured = new Set<Outline>();
   /** Pages of cells are looked at again when they change, or what poses are found with. */
   readonly #index = new CellIndex<Cell>((entry) => this.#isUnsettled(entry));
   #keyOf: ReturnType<typeof poseKeys> = () => null;
@@ -138,7 +143,7 @@ export class Poser {
     const findings = this.findings(resultOf);
     if (!outline || !resultOf || !result || outline === resultOf || !findings) return false;
     if (findings.key !== key || result.origin !== key || !samePoints(outline, resultOf)) return false;
-    this.#findings.set(outline, findings);
+    this.#keep(outline, findings);
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       return cell.outline === outline ? withCell(doc, place, { outline, result, resultOf: outline }) : doc;
@@ -193,7 +198,7 @@ export class Poser {
   /** The pictures of refined poses come with the refinement. */
   #needsMatch(cell: Cell, key: string, shown: boolean): boolean {
     if (isStale(cell, key)) return true;
-    return shown && !isLoaded(cell) && !isRefined(cell.result) && this.findings(cell.outline)?.key !== key;
+    return shown && !isLoaded(cell) && !isRefined(cell.result) && (this.findings(cell.outline)?.key !== key || this.#lacksPictures(cell));
   }
 
   #needsRefinement(cell: Cell, key: string, shown: boolean): boolean {
@@ -202,8 +207,23 @@ export class Poser {
     const findings = this.findings(outline);
     const tried = findings?.key === key && findings.tried;
     // What was tried for an outline is lost where undo brings back its result from before.
-    if (tried && (isRefined(result) || findings.refusal !== null)) return false;
+    if (tried && (isRefined(result) || findings.refusal !== null) && !(shown && this.#lacksPictures(cell))) return false;
     return shown || !isRefined(result) || isFollowing(result, findings);
+  }
+
+  #lacksPictures({ outline }: Cell): boolean {
+    return outline !== null && !this.#pictured.has(outline);
+  }
+
+  #keep(outline: Outline, findings: Findings): void {
+    this.#findings.set(outline, findings);
+    this.#pictured.delete(outline);
+    this.#pictured.add(outline);
+    for (const oldest of [...this.#pictured].slice(0, -PICTURED)) {
+      this.#pictured.delete(oldest);
+      const old = this.#findings.get(oldest);
+      if (old) this.#findings.set(oldest, { ...old, details: [] });
+    }
   }
 
   async #run(task: Task): Promise<void> {
@@ -249,7 +269,7 @@ export class Poser {
     const tried = task.method === 'refine';
     const followed = this.findings(outline)?.tried === false;
     const refusal = refused ? NO_MODEL : null;
-    this.#findings.set(outline, { key, details, canonicalArea, clipped, partial, milliseconds, tried, refusal });
+    this.#keep(outline, { key, details, canonicalArea, clipped, partial, milliseconds, tried, refusal });
     this.#apply(task, result, followed);
   }
 
@@ -271,13 +291,13 @@ export class Poser {
   #refuse(task: Task, sentence: string): void {
     const { method, outline, key } = task;
     if (method === 'match') {
-      this.#findings.set(outline, { ...NOTHING_FOUND, key, tried: false, refusal: null });
+      this.#keep(outline, { ...NOTHING_FOUND, key, tried: false, refusal: null });
       this.#apply(task, { kind: 'failed', origin: key, sentence });
       return;
     }
     // The library's pose stays.
     const before = this.findings(outline) ?? NOTHING_FOUND;
-    this.#findings.set(outline, { ...before, key, tried: true, refusal: sentence });
+    this.#keep(outline, { ...before, key, tried: true, refusal: sentence });
     this.#store.show({});
   }
 

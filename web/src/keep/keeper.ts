@@ -36,6 +36,7 @@ export class Keeper {
   readonly #claims: Claims;
   readonly #open: () => Promise<Shelf>;
   #shelf: Promise<Shelf> | null = null;
+  /** Works on view or left; others are let go, and what comes back by undo is written anew, no longer put aside. */
   readonly #written = new Map<string, Written>();
   /** Work that was left for other work before all of it was written. */
   readonly #left = new Map<string, Seen>();
@@ -121,12 +122,10 @@ export class Keeper {
   #turn(before: Doc, { work }: Doc): void {
     if (this.#written.get(before.work)?.doc === before) {
       this.shelf().then((shelf) => shelf.putAside(before.work, true)).catch((error: unknown) => this.#refuse(error));
+      this.#written.delete(before.work);
     } else if (before.work !== '') this.#left.set(before.work, { doc: before, view: this.#view() });
     this.#left.delete(work);
     if (work === '' && this.#left.size === 0) this.#show({ state: 'nothing' });
-    // What comes back by undo is written anew, no longer put aside.
-    const written = this.#written.get(work);
-    if (written) this.#written.set(work, { ...written, view: '' });
   }
 
   #isPending(): boolean {
@@ -170,7 +169,9 @@ export class Keeper {
       if (doc.work !== '') await this.#put({ doc, view: this.#view() }, false);
       for (const [id, left] of [...this.#left]) {
         await this.#put(left, true);
-        if (this.#left.get(id) === left) this.#left.delete(id);
+        if (this.#left.get(id) !== left) continue;
+        this.#left.delete(id);
+        this.#written.delete(id);
       }
       if (this.#store.doc.work === doc.work && this.#left.size === 0) this.#show(doc.work === '' ? { state: 'nothing' } : { state: 'kept', at: Date.now() });
       if (ui.keeping.state === 'refused') this.#store.say('info', texts.keep.again);

@@ -20,14 +20,14 @@ export function Page() {
   const dropping = useDropTarget();
   const { actions } = useApp();
   useKeys();
+  // Before there is a frame there is nothing to do it with, and a button that asks once more keeps the focus.
+  const empty = state.history.present.frames.length === 0;
   // The mouse leaves the keyboard with the frame; who works by keyboard keeps the focus where it is.
   const giveBack = (event: MouseEvent) => {
     const target = event.target instanceof Element ? event.target.closest('button, input[type=range]') : null;
     const elsewhere = target?.closest('[role=dialog]') || target?.hasAttribute('aria-haspopup');
-    if (target && !elsewhere && event.detail > 0) actions.stage?.focus();
+    if (target && !empty && !elsewhere && event.detail > 0) actions.stage?.focus();
   };
-  // Before there is a frame there is nothing to do it with.
-  const empty = state.history.present.frames.length === 0;
   useEffect(() => {
     // What had the focus is gone with the empty page.
     if (!empty && (document.activeElement === null || document.activeElement === document.body)) actions.stage?.focus();

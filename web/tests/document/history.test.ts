@@ -42,6 +42,25 @@ describe('history', () => {
     expect(outlineIn(history.cancelPreview(h))?.points.length).toBe(2);
   });
 
+  it('goes back into some works and holds no others, and within one as far as before', () => {
+    const turn = (h: history.History, work: string) => history.perform(h, { label: work, apply: () => ({ ...EMPTY_DOC, work }) });
+    let h = history.startHistory({ ...EMPTY_DOC, work: '0' });
+    for (let work = 1; work <= 20; work++) {
+      h = turn(h, '');
+      h = history.amend(h, (doc) => ({ ...doc, work: String(work) }));
+      for (const column of [1, 2, 3]) h = history.perform(h, addPoint(place, at(column)));
+    }
+    const worksOf = (steps: history.History['past']) => [...new Set(steps.map(({ doc }) => doc.work))];
+    expect(worksOf(h.past)).toEqual(['17', '18', '19', '20']);
+    for (let step = 0; step < 200; step++) h = history.perform(h, addPoint(place, at(step)));
+    expect(h.past.filter(({ doc }) => doc.work === '20')).toHaveLength(203);
+    while (history.nextUndo(h)) h = history.undo(h);
+    expect([h.present.work, outlineIn(h)]).toEqual(['17', null]);
+    // What is there again is not lost by the way forth.
+    while (history.nextRedo(h)) h = history.redo(h);
+    expect([h.present.work, outlineIn(h)?.points.length]).toEqual(['20', 203]);
+  });
+
   it('drops the future after a new command', () => {
     const h = history.perform(history.undo(traced(1, 2)), addPoint(place, at(9)));
     expect(history.nextRedo(h)).toBeNull();

@@ -79,7 +79,8 @@ function worker(missing: readonly number[]) {
     if (gate && frame === gate.frame) gate.then();
     return answer;
   };
-  return { begun, asked, call, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+  const dispose = () => void asked.push('let go');
+  return { begun, asked, call, dispose, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
 }
 
 function bench(missing: readonly number[] = []) {
@@ -277,8 +278,20 @@ describe('following', () => {
     await follower.follow();
     const from = (asked: readonly string[]) => asked.slice(asked.indexOf('seeSides') + 1);
     // The femur as it was followed, and as it is in the end.
-    expect(from(femur.asked)).toEqual(['conclude', 'sides', 'conclude', 'depths', 'conclude', 'compare', 'conclude']);
-    expect(from(tibia.asked)).toEqual(['sides', 'standsWith', 'look', 'depths', 'conclude', 'compare', 'conclude']);
+    expect(from(femur.asked)).toEqual(['conclude', 'sides', 'conclude', 'depths', 'conclude', 'compare', 'conclude', 'let go']);
+    expect(from(tibia.asked)).toEqual(['sides', 'standsWith', 'look', 'depths', 'conclude', 'compare', 'conclude', 'let go']);
+  });
+
+  it('lets its workers go at the end, and none before', async () => {
+    const { store, follower, femur, tibia } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    await follower.follow();
+    const endings = ({ asked }: { readonly asked: readonly string[] }) => asked.filter((method) => method === 'let go').length;
+    expect([endings(femur), endings(tibia), femur.asked.at(-1), tibia.asked.at(-1)]).toEqual([1, 1, 'let go', 'let go']);
+    store.perform(setPoseByHand(place(5), poseOf(0)));
+    femur.stopAt(3, () => void follower.follow());
+    await follower.follow();
+    expect([endings(femur), endings(tibia), femur.asked.at(-1)]).toEqual([2, 2, 'let go']);
   });
 
   it('keeps what there is when it is stopped', async () => {

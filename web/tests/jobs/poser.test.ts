@@ -3,8 +3,8 @@ import { addFrames, addPoint, closeOutline, movePoint, setCalibration, setModel 
 import type { Place } from '../../src/document/command';
 import { setOutline } from '../../src/document/outlines';
 import { Store } from '../../src/document/store';
-import { cellOf, type Result } from '../../src/document/types';
-import { PACE, Poser, REST } from '../../src/jobs/poser';
+import { cellOf, type Outline, type Result } from '../../src/document/types';
+import { PACE, PICTURED, Poser, REST } from '../../src/jobs/poser';
 import type { Match, MatchInput, Refined } from '../../src/workers/protocol/match';
 import { WorkerStopped } from '../../src/workers/bridge';
 import { framePoint } from '../../src/geometry/points';
@@ -214,6 +214,37 @@ describe('poser', () => {
     expect(methods().at(-1)).toBe('refine');
     await last().answer(matchOf(2, 0.2));
     expect(shown()).toEqual({ x: 2, residual: 0.2 });
+  });
+
+  it('keeps pictures of the latest outlines alone, and asks again for those that undo brings back, once', async () => {
+    const { store, poser, shown, last, methods } = bench();
+    const outlines: Outline[] = [];
+    const refined = async (x: number) => {
+      await vi.advanceTimersByTimeAsync(PACE);
+      await last().answer(matchOf(x, null));
+      await vi.advanceTimersByTimeAsync(REST);
+      await last().answer(matchOf(x, 0.2));
+      outlines.push(cellOf(store.doc, 'f', 'femur').outline!);
+    };
+    await refined(0);
+    for (let step = 1; step < PICTURED + 20; step++) {
+      store.perform(moved(10 + step / 8));
+      await refined(step);
+    }
+    const pictured = outlines.filter((outline) => poser.findings(outline)!.details.some(({ picture }) => picture));
+    expect(pictured).toEqual(outlines.slice(-PICTURED));
+    const before = methods().length;
+    for (let step = 1; step < PICTURED + 20; step++) store.undo();
+    await vi.advanceTimersByTimeAsync(10 * REST);
+    expect(methods().slice(before)).toEqual(['refine']);
+    expect(shown()).toEqual({ x: 0, residual: 0.2 });
+    const { result } = cellOf(store.doc, 'f', 'femur');
+    await last().answer(matchOf(0, 0.2));
+    await vi.advanceTimersByTimeAsync(10 * REST);
+    expect(methods().slice(before)).toEqual(['refine']);
+    expect(poser.findings(outlines[0]!)?.details[0]?.picture).not.toBeUndefined();
+    // What was there is what is there.
+    expect(cellOf(store.doc, 'f', 'femur').result).toBe(result);
   });
 
   it('is no unit of undo and no unsaved work', async () => {

@@ -3,11 +3,12 @@ import { Assets } from '../../src/document/assets';
 import { addFrames, addPoint, closeOutline, deleteOutline } from '../../src/document/commands';
 import type { Place } from '../../src/document/command';
 import { Store } from '../../src/document/store';
-import { EMPTY_DOC } from '../../src/document/types';
+import { type Doc, EMPTY_DOC } from '../../src/document/types';
 import { Claims } from '../../src/keep/claims';
 import { changedCells, Keeper, WAIT } from '../../src/keep/keeper';
 import type { CellChange, KeptWork, Shelf } from '../../src/keep/shelf';
 import { framePoint } from '../../src/geometry/points';
+import { collectGarbage } from '../garbage';
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
 const SETTLE = 10;
@@ -164,6 +165,28 @@ describe('keeper', () => {
     expect(store.doc.work).toBe(first);
     expect(works.get(first)?.putAside).toBe(false);
     expect(works.size).toBe(1);
+  });
+
+  it('holds no work that was left and is written', async () => {
+    const { store, open, works } = await bench();
+    const left: WeakRef<Doc>[] = [];
+    for (let work = 0; work < 5; work++) {
+      open();
+      // Of some the last is not written yet when they are left.
+      if (work % 2 === 0) await passes(WAIT + SETTLE);
+      store.perform(point(work));
+      if (work === 4) await passes(WAIT + SETTLE);
+      left.push(new WeakRef(store.doc));
+      store.perform(START_ANEW);
+      await passes(WAIT + SETTLE);
+    }
+    expect(works.size).toBe(5);
+    // Undo would lead to them.
+    store.settle();
+    vi.useRealTimers();
+    await new Promise((resolve) => setTimeout(resolve));
+    collectGarbage();
+    expect(left.filter((doc) => doc.deref())).toHaveLength(0);
   });
 
   it('does not write what another tab has', async () => {

@@ -7,14 +7,15 @@ use core::mem::take;
 use core::ops::Range;
 
 use super::task::Task;
-use super::{Following, KnownFemur, Phase};
+use super::{Following, Phase};
 use crate::follow::cell::{Anchor, Cell};
 use crate::follow::elsewhere::elsewhere;
-use crate::follow::false_minimum::{elsewhere_margins, leaves_less, runs_elsewhere};
+use crate::follow::false_minimum::{leaves_less, runs_elsewhere};
 use crate::follow::frame_pose::{FramePose, mirrored_pose};
-use crate::follow::side_samples::{
-    SideMargin, SideSample, frames_for_sides, nearer_rival, runs_to_go_over, side_margin,
-};
+use crate::follow::known_femur::KnownFemur;
+use crate::follow::other_margins::other_margins;
+use crate::follow::side_margin::SideMargin;
+use crate::follow::side_samples::{SideSample, frames_for_sides, runs_to_go_over};
 use crate::follow::sides::{Rival, SideEvidence, SideStep, choose_sides};
 use crate::follow::subject::Subject;
 use crate::refine::{ImageTarget, RefineMemory};
@@ -154,11 +155,7 @@ impl Following {
 
     /// By how much another pose of each frame is less likely; `None` where there is no other.
     pub(super) fn side_margins(&self) -> Vec<Option<SideMargin>> {
-        let elsewhere = elsewhere_margins(&self.elsewhere, self.cells.len());
-        let margin = |(frame, elsewhere)| {
-            nearer_rival(side_margin(&self.samples, &self.steps, frame), elsewhere)
-        };
-        elsewhere.into_iter().enumerate().map(margin).collect()
+        other_margins(&self.samples, &self.steps, &self.elsewhere, &self.cells)
     }
 }
 

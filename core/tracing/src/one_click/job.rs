@@ -50,7 +50,7 @@ impl OneClick {
             Stage::Narrow => poses(0.58),
             Stage::Around(_) => poses(0.5 + 0.08 * self.round as f64),
             Stage::Beyond(_) => poses(0.85),
-            Stage::Mirror(_) => poses(0.9),
+            Stage::Mirror(_) | Stage::Beside(_) => poses(0.9),
             Stage::Done => Progress::Done,
         }
     }
@@ -136,6 +136,14 @@ impl OneClick {
             Stage::Mirror(at) => {
                 if self.mirror(at, observation, component, memory)? {
                     Stage::Mirror(at + 1)
+                } else {
+                    self.rotated_from = self.answers.first().copied();
+                    Stage::Beside(0)
+                }
+            }
+            Stage::Beside(at) => {
+                if self.look_beside(at, observation, component, memory)? {
+                    Stage::Beside(at + 1)
                 } else {
                     self.end(observation)?
                 }

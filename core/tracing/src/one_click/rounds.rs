@@ -9,8 +9,10 @@ use super::state::{OneClick, Stage};
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{MaskMut, words_needed};
-use fluoropose::math::{apply, multiply, radians, rotation_by};
+use fluoropose::math::{Vector3, apply, multiply, radians, rotation_by, sin_cos};
+use fluoropose::mesh::Model;
 use fluoropose::mesh::mirror::mirror_pose;
+use fluoropose::mesh::symmetry::is_nearly_symmetric;
 use fluoropose::pose::Pose;
 use fluoropose::render::render;
 
@@ -29,6 +31,9 @@ const DISTANCES: [f64; 3] = [1.0, 0.96, 1.04];
 const MARGIN: f64 = 0.1;
 /// The greatest number of rounds.
 const ROUNDS: usize = 4;
+/// The best answer is refined from so many sides, turned out of the image plane by so many degrees.
+const BESIDE: usize = 6;
+const BESIDE_DEG: f64 = 9.0;
 /// A mirror image is refined where the edges near its outline have at least this fraction of the strength of the best
 /// answer's.
 const MIRRORED: f64 = 0.8;
@@ -108,15 +113,8 @@ impl OneClick {
         let number = number % (side * side);
         let steps = [number % side - TURNS, number / side - TURNS];
         let [x, y] = steps.map(|steps| radians(TURN_DEG * f64::from(steps)));
-        let (pose, middle) = (&best.refined.pose, component.model.bounds().centre);
-        let rotation = multiply(&rotation_by(&[x, y, 0.0]), &pose.rotation);
-        let moved = apply(&rotation, &middle);
-        let centre = pose.transform(&middle);
         Some(LocatedPose {
-            pose: Pose {
-                rotation,
-                translation: core::array::from_fn(|k| distance * centre[k] - moved[k]),
-            },
+            pose: turned(&best.refined.pose, &[x, y, 0.0], distance, component.model),
             region: None,
             mismatch: 0.0,
         })
@@ -183,6 +181,51 @@ impl OneClick {
             keep(&mut self.answers, mirrored, SAME_ANSWER, component.model);
         }
         Ok(true)
+    }
+
+    /// Refines one pose beside the best answer of a part that is nearly its own mirror image: a tray's outline may fit a second time some degrees
+    /// off, where no mirror image of the one is the other. Returns whether there may be another.
+    pub(super) fn look_beside(
+        &mut self,
+        at: usize,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<bool, OneClickError> {
+        let is_like_its_image = || is_nearly_symmetric(component.model, component.planes);
+        let Some(best) = self
+            .rotated_from
+            .filter(|_| at < BESIDE && is_like_its_image())
+        else {
+            return Ok(false);
+        };
+        let (sin, cos) = sin_cos(core::f64::consts::TAU * at as f64 / BESIDE as f64);
+        let turn = radians(BESIDE_DEG);
+        let pose = turned(
+            &best.refined.pose,
+            &[turn * cos, turn * sin, 0.0],
+            1.0,
+            component.model,
+        );
+        if let Some(answer) = self
+            .scorer(observation, component)
+            .onto_frame(&pose, memory)?
+        {
+            keep(&mut self.answers, answer, SAME_ANSWER, component.model);
+        }
+        Ok(true)
+    }
+}
+
+/// A pose turned about the middle of its model, which then stands so many times as far away.
+fn turned(pose: &Pose, turn: &Vector3, times: f64, model: &Model<'_>) -> Pose {
+    let middle = model.bounds().centre;
+    let rotation = multiply(&rotation_by(turn), &pose.rotation);
+    let moved = apply(&rotation, &middle);
+    let centre = pose.transform(&middle);
+    Pose {
+        rotation,
+        translation: core::array::from_fn(|k| times * centre[k] - moved[k]),
     }
 }
 

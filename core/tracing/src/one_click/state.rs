@@ -53,6 +53,8 @@ pub(super) enum Stage {
     Beyond(usize),
     /// The mirror images of the best answer are refined, one by one.
     Mirror(usize),
+    /// Poses some degrees beside the best answer are refined, one by one.
+    Beside(usize),
     /// Nothing is left to do.
     Done,
 }

@@ -24,9 +24,11 @@ serve<PoseProtocol>({
   ...oneClick({ ready, matcherOf, withSurroundings, read }),
   open: async ({ component, bytes, mesh }) => {
     await ready;
+    // First: memory of WebAssembly never shrinks, and two at a time need more than one ever does.
+    matchers.get(component)?.free();
+    matchers.delete(component);
     const matcher = new Matcher(bytes);
     if (mesh) matcher.takeModel(mesh.vertices, mesh.triangles);
-    matchers.get(component)?.free();
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },

@@ -4,9 +4,9 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
+use fluoropose::follow::{Anchor, Cell, Conclusion, KnownFemur, State, trusted_depths};
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::EulerPose;
 use fluoropose::refine::Polarity;
 use fluoropose_report::counted;
 use rayon::prelude::*;
@@ -196,18 +196,24 @@ fn on_the_right_sides(
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| !is_tibia(part)) {
         margins[number] = settle(run, part, None, &mut films[number])?;
     }
-    let femur = parts
-        .iter()
-        .position(|part| part.role() == Some(Role::Femur));
-    let femurs: Option<Vec<Option<Pose>>> = femur.and_then(|number| {
-        let axes = parts[number].axes?;
-        let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&axes));
-        Some(films[number].iter().map(pose).collect())
-    });
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| is_tibia(part)) {
-        margins[number] = settle(run, part, femurs.as_deref(), &mut films[number])?;
+        let femur = femur_of(part, parts, films);
+        margins[number] = settle(run, part, femur.as_ref(), &mut films[number])?;
     }
     Ok(margins)
+}
+
+/// The femur of a tibia, where both components' axes are known.
+fn femur_of(part: &Part<'_>, parts: &[Part<'_>], films: &[Vec<Cell>]) -> Option<KnownFemur> {
+    let axes = part.axes.filter(|_| part.role() == Some(Role::Tibia))?;
+    let is_femur = |part: &Part<'_>| part.role() == Some(Role::Femur);
+    let femur = parts.iter().position(is_femur)?;
+    let in_field = parts[femur].axes?;
+    let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&in_field));
+    Some(KnownFemur {
+        poses: films[femur].iter().map(pose).collect(),
+        axes,
+    })
 }
 
 /// Judges, and writes the files.
@@ -228,7 +234,10 @@ fn finish(
             trusted_depths(&films[other], &margins[other], &parts[other].middle())
         });
         let (cells, interpolate) = (&films[number], run.request.interpolate);
-        let judged = judge(part, cells, &margins[number], &depths, interpolate);
+        let mut judged = judge(part, cells, &margins[number], &depths, interpolate);
+        if let Some(femur) = femur_of(part, parts, films) {
+            femur.distrust_impossible(&mut judged);
+        }
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))

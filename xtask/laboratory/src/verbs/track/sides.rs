@@ -1,14 +1,12 @@
 //! Each component put on the right side of its mirror, over the whole film.
 
 use anyhow::Result;
-use fluoropose::finder::choice::Counterpart;
 use fluoropose::follow::{
-    Anchor, Cell, Crossing, FramePose, Looked, ROUNDS, Rival, SecondLook, SideEvidence, SideMargin,
-    SideSample, SideStep, choose_sides, elsewhere, elsewhere_margins, frames_for_sides,
-    frames_to_cross_from, leaves_less, look, mirrored_pose, nearer_rival, runs_elsewhere,
-    runs_to_go_over, second_looks, side_margin,
+    Anchor, Cell, Crossing, FramePose, KnownFemur, Looked, ROUNDS, Rival, SecondLook, SideEvidence,
+    SideMargin, SideSample, SideStep, choose_sides, elsewhere, frames_for_sides,
+    frames_to_cross_from, leaves_less, look, mirrored_pose, other_margins, runs_elsewhere,
+    runs_to_go_over, second_looks,
 };
-use fluoropose::pose::Pose;
 use rayon::prelude::*;
 
 use super::follow::follow;
@@ -19,18 +17,20 @@ use super::run::Run;
 /// By how much another pose of each frame is less likely; `None` where there is none.
 pub(super) type Margins = Vec<Option<SideMargin>>;
 
-/// Brings a component to its right side of the mirror and out of false minima. `femurs` are the femoral poses of all frames in the
-/// field's axes, for a tibia.
+/// Brings a component to its right side of the mirror and out of false minima. `femur` is that of a tibia, where
+/// it is known.
 pub(super) fn settle(
     run: &Run<'_>,
     part: &Part<'_>,
-    femurs: Option<&[Option<Pose>]>,
+    femur: Option<&KnownFemur>,
     cells: &mut [Cell],
 ) -> Result<Margins> {
     let mut rounds = ROUNDS;
+    // Of a way that lies in small minima its frames say little of the sides.
+    cross_jumps(run, part, cells)?;
     run.say(format!("{}: other poses are looked at", part.name()));
     loop {
-        let (samples, steps) = choose(run, part, femurs, cells)?;
+        let (samples, steps) = choose(run, part, femur, cells)?;
         let beside = seen_elsewhere(run, part, &samples, cells)?;
         if rounds > 0 && leave_false_minima(run, part, &beside, cells)? {
             rounds -= 1;
@@ -38,9 +38,7 @@ pub(super) fn settle(
         }
         cross_jumps(run, part, cells)?;
         look_again(run, part, cells)?;
-        let beside = elsewhere_margins(&beside, cells.len());
-        let margin = |(frame, beside)| nearer_rival(side_margin(&samples, &steps, frame), beside);
-        return Ok(beside.into_iter().enumerate().map(margin).collect());
+        return Ok(other_margins(&samples, &steps, &beside, cells));
     }
 }
 
@@ -48,13 +46,13 @@ pub(super) fn settle(
 fn choose(
     run: &Run<'_>,
     part: &Part<'_>,
-    femurs: Option<&[Option<Pose>]>,
+    femur: Option<&KnownFemur>,
     cells: &mut [Cell],
 ) -> Result<(Vec<SideSample>, Vec<SideStep>)> {
     let samples = seen_from_both_sides(run, part, cells)?;
     let evidence: Vec<SideEvidence> = samples
         .iter()
-        .map(|sample| sample.evidence(|pose| tilt_deg(part, sample.frame, femurs, pose)))
+        .map(|sample| sample.evidence(|pose| femur?.tilt_deg(sample.frame, pose)))
         .collect();
     let mut steps = vec![SideStep::default(); samples.len()];
     choose_sides(&evidence, &mut steps);
@@ -163,18 +161,6 @@ fn look_again(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> 
 /// Tells some numbers from others.
 fn bits_of(numbers: impl Iterator<Item = f64>) -> u64 {
     numbers.fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits())
-}
-
-/// Coronal tilt of a tibial pose against the femur of its frame, degrees, where that is known.
-fn tilt_deg(
-    part: &Part<'_>,
-    frame: usize,
-    femurs: Option<&[Option<Pose>]>,
-    pose: &Pose,
-) -> Option<f64> {
-    let femur = (*femurs?.get(frame)?)?;
-    let axes = part.axes?;
-    Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&axes)))
 }
 
 /// Follows the other side over some frames.

@@ -1,0 +1,167 @@
+//! By how much other poses of each frame are less likely than its own, at the end.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::cell::Cell;
+use super::false_minimum::elsewhere_margins;
+use super::frame_pose::FramePose;
+use super::side_margin::{SideMargin, nearer_rival, nearest, side_margin};
+use super::side_samples::SideSample;
+use super::sides::{ONE_DEG, Rival, SideStep};
+use crate::finder::choice::DECISIVE_RATIO;
+use crate::pose::geodesic_deg;
+
+/// By how much another pose of each frame is less likely; `None` where there is none. `samples` were seen from both sides of the mirror,
+/// `steps` is what [`super::choose_sides`] made of them, `beside` was seen from elsewhere; `cells` are the poses of the film now.
+///
+/// The tilt of a tray errs alike in all frames, and its votes add up: where the side that was not chosen leaves so much less in any frame than is
+/// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where it leaves as much less than the
+/// frame's own pose alone, that pose is off, and open in this frame.
+#[must_use]
+pub fn other_margins(
+    samples: &[SideSample],
+    steps: &[SideStep],
+    beside: &[SideSample],
+    cells: &[Cell],
+) -> Vec<Option<SideMargin>> {
+    let open = contradicted(samples, cells, usual_misfit(cells));
+    let mirrored = |frame: usize| {
+        let margin = side_margin(samples, steps, frame)?;
+        let nearest = nearest(samples, frame)?;
+        let is_own = samples[nearest].frame == frame;
+        let is_open = open[nearest] || is_own && leaves_more(&samples[nearest], cells, f64::MAX);
+        Some(match is_open {
+            true => SideMargin {
+                margin: 0.0,
+                ..margin
+            },
+            false => margin,
+        })
+    };
+    let beside = elsewhere_margins(beside, cells.len());
+    let both = beside.into_iter().enumerate();
+    both.map(|(frame, beside)| nearer_rival(mirrored(frame), beside))
+        .collect()
+}
+
+/// Which samples lie on a stretch between two meetings of both sides in which any leaves decisively less on the side that was not chosen.
+fn contradicted(samples: &[SideSample], cells: &[Cell], usual_px: f64) -> Vec<bool> {
+    let mut open = vec![false; samples.len()];
+    let mut begin = 0;
+    while begin < samples.len() {
+        let meets = |&k: &usize| !are_apart(&samples[k]);
+        let end = (begin..samples.len()).find(meets).unwrap_or(samples.len());
+        let stretch = &samples[begin..end];
+        let is_open = stretch
+            .iter()
+            .any(|sample| leaves_more(sample, cells, usual_px));
+        open[begin..end].fill(is_open);
+        begin = end + 1;
+    }
+    open
+}
+
+/// Whether a frame has another side, which is another pose.
+fn are_apart(sample: &SideSample) -> bool {
+    let off = |other: &FramePose| geodesic_deg(&sample.own.pose.rotation, &other.pose.rotation);
+    sample.rival == Rival::Mirrored
+        && sample
+            .other
+            .as_ref()
+            .is_some_and(|other| off(other) >= ONE_DEG)
+}
+
+/// The median of what poses leave, pixels.
+fn usual_misfit(cells: &[Cell]) -> f64 {
+    let found = cells.iter().filter_map(Cell::found);
+    let mut all: Vec<f64> = found.map(|found| found.misfit_px).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Whether the pose of a frame, and what is usual, leaves decisively more than another that was seen in it.
+fn leaves_more(sample: &SideSample, cells: &[Cell], usual_px: f64) -> bool {
+    let cell = cells.get(sample.frame).filter(|cell| !cell.fixed);
+    let Some(now) = cell.and_then(Cell::found) else {
+        return false;
+    };
+    let seen = [Some(sample.own), sample.other];
+    seen.iter().flatten().any(|other| {
+        now.misfit_px.min(usual_px) >= DECISIVE_RATIO * other.misfit_px
+            && geodesic_deg(&now.pose.rotation, &other.pose.rotation) >= ONE_DEG
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::Anchor;
+    use crate::follow::fake::turned;
+
+    const CHOSEN: f64 = 0.6;
+
+    /// Seven frames on the side at 0 degrees with the mirror image 40 degrees off, which leaves what is given.
+    fn film(others: [f64; 7], meeting: Option<usize>) -> (Vec<SideSample>, Vec<Cell>) {
+        let own = |frame: usize| Anchor::found(frame, turned(0.0, CHOSEN));
+        let sample = |(frame, left): (usize, f64)| SideSample {
+            frame,
+            own: turned(0.0, CHOSEN),
+            rival: Rival::Mirrored,
+            other: Some(turned(
+                if meeting == Some(frame) { 1.0 } else { 40.0 },
+                left,
+            )),
+            fixed: false,
+        };
+        let cells = (0..7).map(|frame| Cell::from(&own(frame))).collect();
+        (others.into_iter().enumerate().map(sample).collect(), cells)
+    }
+
+    fn margins(others: [f64; 7], meeting: Option<usize>) -> Vec<f64> {
+        let (samples, cells) = film(others, meeting);
+        // As many votes of the tilt would choose them.
+        let evidence = samples.iter().map(|sample| {
+            sample.evidence(|pose| Some(if pose == &sample.own.pose { 0.0 } else { 30.0 }))
+        });
+        let evidence: Vec<_> = evidence.collect();
+        let mut steps = vec![SideStep::default(); 7];
+        crate::follow::choose_sides(&evidence, &mut steps);
+        let margins = other_margins(&samples, &steps, &[], &cells);
+        margins
+            .iter()
+            .map(|one| one.map_or(9.0, |one| one.margin))
+            .collect()
+    }
+
+    #[test]
+    fn where_a_person_has_chosen_there_is_no_other_side() {
+        let (mut samples, cells) = film([0.62; 7], None);
+        samples[0].fixed = true;
+        let steps = vec![SideStep::default(); 7];
+        let margins = other_margins(&samples, &steps, &[], &cells);
+        assert_eq!(margins[0], None);
+        assert!(margins[1].is_some());
+    }
+
+    #[test]
+    fn one_frame_that_fits_the_other_side_decisively_opens_the_side_up_to_where_both_meet() {
+        let mut others = [0.62; 7];
+        assert!(margins(others, None).iter().all(|&margin| margin > 1.0));
+        others[5] = 0.44;
+        assert!(margins(others, None).iter().all(|&margin| margin == 0.0));
+        let mut off = [0.62; 7];
+        off[5] = 0.5;
+        let (samples, mut cells) = film(off, None);
+        cells[5] = Cell::from(&Anchor::found(5, turned(3.0, 0.8)));
+        let usual = usual_misfit(&cells);
+        assert!(leaves_more(&samples[5], &cells, f64::MAX));
+        assert_eq!(contradicted(&samples, &cells, usual), [false; 7]);
+        let parted = margins(others, Some(3));
+        assert!(parted[..3].iter().all(|&margin| margin > 0.5), "{parted:?}");
+        assert!(
+            parted[4..].iter().all(|&margin| margin == 0.0),
+            "{parted:?}"
+        );
+    }
+}
