@@ -56,10 +56,10 @@ pub(crate) fn figures() -> PathBuf {
 pub(super) struct Program {
     pub(super) name: &'static str,
     pub(super) features: &'static [&'static str],
-    within: Within,
+    pub(super) within: Within,
 }
 
-struct Within {
+pub(super) struct Within {
     turn_deg: f64,
     aside_mm: f64,
     depth_mm: f64,
@@ -93,6 +93,27 @@ pub(super) const FINDER: Program = Program {
         aside_mm: 0.15,
         depth_mm: 1.0,
     },
+};
+
+/// From the pose of the frame before.
+pub(super) const REFINE: Program = Program {
+    name: "refinement",
+    features: &["--features", "refine"],
+    ..FINDER
+};
+
+/// The finder of the tibial component.
+pub(super) const TIBIA: Program = Program {
+    name: "tibia",
+    features: &["--features", "tibia"],
+    ..FINDER
+};
+
+/// The finder where nothing is known of the view.
+pub(super) const ALL_ROUND: Program = Program {
+    name: "all round",
+    features: &["--features", "all_round"],
+    ..FINDER
 };
 
 /// The same, linked for a Netduino Plus 2.
@@ -244,7 +265,7 @@ pub(super) fn is_information(line: &str) -> bool {
 }
 
 /// That both agree says nothing if both are wrong: the first pose must be near the true one.
-fn check_pose(lines: &str, within: &Within) -> Result<()> {
+pub(super) fn check_pose(lines: &str, within: &Within) -> Result<()> {
     let proof = Proof::read(lines)?;
     let truth = Pose::from(TRUTH);
     let turned = geodesic_deg(&proof.pose.rotation, &truth.rotation);
@@ -289,7 +310,7 @@ mod tests {
                 ("x_rot deg", truth.x_rot_deg),
                 ("y_rot deg", truth.y_rot_deg),
             ]
-            .map(|(name, value)| format!("{name}: {value} ({:016x})\n", value.to_bits()))
+            .map(|(name, value)| format!("{name}: {value:.6} ({:016x})\n", value.to_bits()))
             .concat()
         };
         check_pose(&lines(TRUTH.x_mm + 0.1), &OF_A_VIEW).unwrap();

@@ -10,7 +10,7 @@ use cortex_m_semihosting::hio::HostStream;
 use cortex_m_semihosting::{debug, hio};
 use fluoropose_firmware::Memory;
 
-use super::{Board, Lines, prove, stack};
+use super::{Board, Lines, prove, stack, tell_panic};
 
 #[entry]
 fn main() -> ! {
@@ -95,8 +95,8 @@ fn now() -> u64 {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    if let Ok(mut console) = hio::hstderr() {
-        let _ = writeln!(console, "{info}");
+    if let Ok(console) = hio::hstderr() {
+        let _ = tell_panic(&mut CortexM { console, last: 0 }, info);
     }
     loop {
         debug::exit(debug::EXIT_FAILURE);

@@ -10,7 +10,7 @@ use core::ptr::write_volatile;
 
 use fluoropose_firmware::Memory;
 
-use super::{Board, Lines, prove, stack};
+use super::{Board, Lines, prove, stack, tell_panic};
 
 // Memory is made ready, the stack is set, and there is one processor.
 global_asm!(
@@ -104,6 +104,6 @@ fn retired() -> u64 {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    let _ = writeln!(Virt { last: 0 }, "{info}");
+    let _ = tell_panic(&mut Virt { last: 0 }, info);
     end(FAILED)
 }
