@@ -6,6 +6,7 @@ use std::{env, fs};
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FLUOROPOSE_FIRMWARE_INPUTS");
+    println!("cargo::rerun-if-env-changed=FLUOROPOSE_OUTLINES");
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS").map_or_else(
         || package.join("../../target/firmware/inputs"),

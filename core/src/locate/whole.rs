@@ -14,7 +14,6 @@ use crate::pose::Pose;
 use crate::search::kernels::Kernels;
 use crate::search::{MatchError, Scores, scores_needed};
 use crate::search::{Query, ViewSearch, ViewSearchMemory, query_bytes_needed, search_bytes_needed};
-use crate::shortlist::first_of;
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -139,6 +138,7 @@ pub fn locate<const K: usize>(
 ///
 /// # Errors
 /// As [`locate`].
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn canonical_form(
     mask: &Mask<'_>,
     camera: &Camera,
@@ -155,6 +155,7 @@ pub fn canonical_form(
 ///
 /// # Errors
 /// As [`locate`].
+#[cfg_attr(target_os = "none", inline(never))]
 pub fn locate_form<const K: usize>(
     form: &CanonicalForm,
     camera: &Camera,
@@ -171,19 +172,25 @@ pub fn locate_form<const K: usize>(
     };
     let mut search = ViewSearch::new(library, &query, &work.kernels, memory)?;
     let rivals: Vec<_, K> = search.rivals();
-    let poses = rivals.iter().map(|candidate| {
+    // Made where it is handed back: a copy of it takes kilobytes of stack.
+    let mut found = Ok(LocatedPoses {
+        form: *form,
+        poses: Vec::new(),
+    });
+    for candidate in &rivals {
         let fine = interpolate(&mut search, candidate);
-        Located {
+        let located = Located {
             pose: pose_from_view(camera, info, form, &fine),
             view: candidate.view,
             fine,
             by_pieces: false,
+        };
+        if let Ok(LocatedPoses { poses, .. }) = &mut found {
+            // There is room for as many.
+            let _ = poses.push(located);
         }
-    });
-    Ok(LocatedPoses {
-        form: *form,
-        poses: first_of(poses),
-    })
+    }
+    found
 }
 
 /// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them

@@ -15,8 +15,20 @@ mod stack;
 /// Lines that start with this are not compared with the host's.
 const INFORMATION: &str = "info";
 
-/// What the proof writes, before it is shown.
-type Lines = heapless::String<8192>;
+/// What the proof tells, before it is shown: its lines, and the instructions of each stage.
+struct Told {
+    lines: heapless::String<8192>,
+    stages: heapless::Vec<(u64, heapless::String<40>), 8>,
+}
+
+impl Told {
+    const fn new() -> Self {
+        Self {
+            lines: heapless::String::new(),
+            stages: heapless::Vec::new(),
+        }
+    }
+}
 
 /// What each board does in its own way, and where words go.
 trait Board: Write {
@@ -25,8 +37,8 @@ trait Board: Write {
 }
 
 /// Runs the proof.
-fn prove(board: &mut impl Board, memory: &mut Memory, lines: &mut Lines) -> fmt::Result {
-    let mut stages: heapless::Vec<(u64, heapless::String<40>), 8> = heapless::Vec::new();
+fn prove(board: &mut impl Board, memory: &mut Memory, told: &mut Told) -> fmt::Result {
+    let Told { lines, stages } = told;
     let mut stage = |name: &str| {
         let instructions = board.instructions();
         if let Ok(name) = heapless::String::try_from(name) {
@@ -36,7 +48,7 @@ fn prove(board: &mut impl Board, memory: &mut Memory, lines: &mut Lines) -> fmt:
     };
     let proof = fluoropose_firmware::run(memory, lines, &mut stage);
     board.write_str(lines)?;
-    for (instructions, name) in &stages {
+    for (instructions, name) in stages.iter() {
         tell(board, name, *instructions, " instructions\n")?;
     }
     report_memory(board)?;

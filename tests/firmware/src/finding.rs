@@ -6,10 +6,12 @@ use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::{Decision, Found, Goal, find_into};
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::crop::Crop;
+use fluoropose::implant::ImplantFile;
 use fluoropose::{RefineOptions, Silhouette};
 
 use crate::failure::Failure;
-use crate::implanted::{Arena, FRAME_SIDE, calibrated, opened};
+pub(crate) use crate::implanted::opened;
+use crate::implanted::{Arena, FRAME_SIDE, calibrated};
 use crate::writing::{pose_numbers, whole, words};
 
 /// All that is worked in.
@@ -41,13 +43,13 @@ impl Default for Memory {
 ///
 /// # Errors
 /// A [`Failure`].
-pub(crate) fn prove(
+pub(crate) fn pose_of(
+    implant: &ImplantFile<'_>,
     outline: &[Point],
     memory: &mut Memory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), Failure> {
-    let implant = opened(stage)?;
     let outline = Outline::new(outline, FRAME_SIDE, FRAME_SIDE)?;
     stage("outline checked");
     let crop = Crop::around_outline(&outline, Crop::MARGIN, [FRAME_SIDE; 2])?;

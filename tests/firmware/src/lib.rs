@@ -12,6 +12,8 @@ mod implanted;
 mod inputs;
 #[cfg(not(any(feature = "finder", feature = "refine")))]
 mod matching;
+#[cfg(feature = "outlines")]
+mod outlines;
 mod program;
 #[cfg(all(feature = "refine", not(feature = "finder")))]
 mod refining;

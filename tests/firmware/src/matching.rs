@@ -19,22 +19,35 @@ const ROWS: usize = 288;
 
 fluoropose::locate_arena!(pub Memory, LIBRARY, columns: COLUMNS, rows: ROWS);
 
+/// The library, checked and then trusted.
+pub(crate) fn opened(stage: &mut dyn FnMut(&str)) -> Result<Library<'static>, Failure> {
+    check()?;
+    stage("library opened, checked");
+    let library = Library::trusted(LIBRARY)?;
+    stage("library opened, trusted");
+    Ok(library)
+}
+
+/// Checks every byte of the library. By itself, because of what it leaves on the stack nothing is needed.
+#[inline(never)]
+fn check() -> Result<(), Failure> {
+    Library::open(LIBRARY)?;
+    Ok(())
+}
+
 /// Goes from `outline` to the poses that explain it and writes each result to `out`.
 ///
 /// `stage` is called with a stage's name after it: a place to look at a clock.
 ///
 /// # Errors
 /// A [`Failure`].
-pub(crate) fn prove(
+pub(crate) fn pose_of(
+    library: &Library<'_>,
     outline: &[Point],
     memory: &mut Memory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), Failure> {
-    check()?;
-    stage("library opened, checked");
-    let library = Library::trusted(LIBRARY)?;
-    stage("library opened, trusted");
     let camera = library.info().camera;
     let frame = [camera.width(), camera.height()];
     let outline = Outline::new(outline, frame[0], frame[1])?;
@@ -45,19 +58,16 @@ pub(crate) fn prove(
     let mask = crop.fill_outline(&outline, pixels)?;
     stage("silhouette filled");
 
-    let form = canonical_form(&mask, &camera, &library, &mut work)?;
+    let form = canonical_form(&mask, &camera, library, &mut work)?;
     // The mask is needed no more.
     let work = work.with_words(pixels);
-    let found = locate_form(&form, &camera, &library, work)?;
+    let found = locate_form(&form, &camera, library, work);
     stage("canonical form, match, pose");
-    report(out, &library, &crop, &found)
-}
-
-/// Checks every byte of the library. By itself, because of what it leaves on the stack nothing is needed.
-#[inline(never)]
-fn check() -> Result<(), Failure> {
-    Library::open(LIBRARY)?;
-    Ok(())
+    // Not moved: it is long.
+    match &found {
+        Ok(found) => report(out, library, &crop, found),
+        Err(error) => Err((*error).into()),
+    }
 }
 
 #[inline(never)]

@@ -1,16 +1,19 @@
 //! Which way the program goes: to a library's pose, with the feature `finder` to a chosen and judged one, with `refine` from one pose
 //! to the next.
 
+#[cfg(not(feature = "outlines"))]
 use core::fmt::Write;
 
+#[cfg(not(feature = "outlines"))]
 use crate::failure::Failure;
 #[cfg(feature = "finder")]
-use crate::finding as way;
+pub(crate) use crate::finding as way;
+#[cfg(not(feature = "outlines"))]
 use crate::inputs::POINTS;
 #[cfg(not(any(feature = "finder", feature = "refine")))]
-use crate::matching as way;
+pub(crate) use crate::matching as way;
 #[cfg(all(feature = "refine", not(feature = "finder")))]
-use crate::refining as way;
+pub(crate) use crate::refining as way;
 
 pub use way::Memory;
 
@@ -20,17 +23,28 @@ const BLOB: (&str, usize) = ("library", crate::inputs::LIBRARY.len());
 #[cfg(any(feature = "finder", feature = "refine"))]
 const BLOB: (&str, usize) = ("implant", crate::implanted::IMPLANT.0.len());
 
+/// Bytes of the outline there; random ones are made.
+#[cfg(not(feature = "outlines"))]
+const OUTLINE: usize = size_of_val(&POINTS);
+#[cfg(feature = "outlines")]
+const OUTLINE: usize = 0;
+
 /// Bytes in flash that are no code: what is known of the implant, and the outline.
-pub const DATA: [(&str, usize); 2] = [BLOB, ("outline", size_of_val(&POINTS))];
+pub const DATA: [(&str, usize); 2] = [BLOB, ("outline", OUTLINE)];
 
 /// Runs it.
 ///
 /// # Errors
 /// A [`Failure`].
+#[cfg(not(feature = "outlines"))]
 pub fn run(
     memory: &mut Memory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), Failure> {
-    way::prove(&POINTS, memory, out, stage)
+    let known = way::opened(stage)?;
+    way::pose_of(&known, &POINTS, memory, out, stage)
 }
+
+#[cfg(feature = "outlines")]
+pub use crate::outlines::prove as run;

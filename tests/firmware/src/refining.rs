@@ -4,13 +4,15 @@ use core::fmt::Write;
 
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::crop::Crop;
+use fluoropose::implant::ImplantFile;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, Refined, refine};
 use fluoropose::{RefineOptions, Silhouette};
 
 use crate::failure::Failure;
 pub use crate::implanted::Arena as Memory;
-use crate::implanted::{FRAME_SIDE, calibrated, opened};
+pub(crate) use crate::implanted::opened;
+use crate::implanted::{FRAME_SIDE, calibrated};
 use crate::writing::{number, pose_numbers, whole, words};
 
 /// Where the implant was on the frame before: some 4 degrees, 3 mm in the plane and 15 mm of depth away.
@@ -29,13 +31,13 @@ const START: EulerPose = EulerPose {
 ///
 /// # Errors
 /// A [`Failure`].
-pub(crate) fn prove(
+pub(crate) fn pose_of(
+    implant: &ImplantFile<'_>,
     outline: &[Point],
     memory: &mut Memory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), Failure> {
-    let implant = opened(stage)?;
     let outline = Outline::new(outline, FRAME_SIDE, FRAME_SIDE)?;
     stage("outline checked");
     let crop = Crop::around_outline(&outline, Crop::MARGIN, [FRAME_SIDE; 2])?;

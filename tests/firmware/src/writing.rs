@@ -54,7 +54,7 @@ pub fn pose_numbers(out: &mut dyn Write, pose: &Pose) -> Result {
 }
 
 /// At least so many digits, in a base up to 16.
-fn digits(out: &mut dyn Write, number: u64, base: u64, least: u32) -> Result {
+pub fn digits(out: &mut dyn Write, number: u64, base: u64, least: u32) -> Result {
     let rest = number / base;
     if least > 1 || rest > 0 {
         digits(out, rest, base, least.saturating_sub(1))?;

@@ -7,7 +7,9 @@ use anyhow::Result;
 
 use super::board_rows::{self, Row};
 use super::calls;
-use super::firmware::{self, ALL_ROUND, FINDER, LIBRARY, Program, REFINE, SMALL_FINDER, TIBIA};
+use super::firmware::{
+    self, ALL_ROUND, FINDER, LIBRARY, OUTLINES, Program, REFINE, SMALL_FINDER, TIBIA,
+};
 use super::native;
 use super::report::{Report, Said};
 use crate::output::say;
@@ -22,6 +24,7 @@ pub(crate) fn run(report: &mut Report) {
     let pairs = [&CORTEX_M0, &RISCV32].map(|board| [(board, &LIBRARY), (board, &FINDER)]);
     let pairs = pairs.iter().flatten();
     let others = [
+        (&CORTEX_M4F, &OUTLINES),
         (&CORTEX_M4F, &REFINE),
         (&CORTEX_M4F, &TIBIA),
         (&CORTEX_M4F, &ALL_ROUND),
@@ -102,7 +105,7 @@ fn agree(
 ) -> Result<Said> {
     let host = firmware::on_host(program.features)?;
     let count = firmware::ensure_alike(&host, lines)?;
-    firmware::check_pose(&host, &program.within)?;
+    firmware::check_pose(&host, program)?;
     let information = lines.lines().filter(|line| firmware::is_information(line));
     let found: Vec<Row> = information
         .inspect(|line| say(line))
