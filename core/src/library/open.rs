@@ -76,7 +76,7 @@ impl<'a> Library<'a> {
     ///
     /// # Errors
     /// [`LibraryError`] for bytes that no library begins with, or of another length.
-    pub(crate) fn trusted(bytes: &'a [u8]) -> Result<Self, LibraryError> {
+    pub fn trusted(bytes: &'a [u8]) -> Result<Self, LibraryError> {
         let (header, rest) = split_header(bytes)?;
         let (info, body) = read_header(header)?;
         let given = bytes.len() as u64;
