@@ -12,8 +12,7 @@ export function checkOptions(options: unknown): void {
   const { model, calibration, frame, views } = given;
   if (!model || typeof model !== 'object') throw new Error('openImplant: model should be the bytes of an STL, OBJ or PLY file (Uint8Array or ArrayBuffer), or { vertices, triangles }');
   if (typeof calibration !== 'string') throw new Error('openImplant: calibration should be the text of a JT_INTCALIB or MayaCam 2.0 file');
-  const { width, height } = isObject(frame) ? frame : {};
-  if (!isSize(width) || !isSize(height)) throw new Error('openImplant: frame should be { width, height }, the size of the frames in whole pixels');
+  if (!isObject(frame) || !isSize(frame['width']) || !isSize(frame['height'])) throw new Error('openImplant: frame should be { width, height }, the size of the frames in whole pixels');
   if (views !== undefined) known(views, VIEWS, 'openImplant, views');
 }
 
