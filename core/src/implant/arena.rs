@@ -73,6 +73,8 @@ const fn u32_at(bytes: &[u8], at: usize) -> u32 {
 /// static FEMUR: Aligned<[u8; 98_304]> = Aligned(*include_bytes!("femur.implant"));
 /// fluoropose::finder_arena!(pub Arena, &FEMUR.0, columns: 192, rows: 192, border: 900);
 /// static ARENA: Mutex<Arena> = Mutex::new(Arena::new());
+/// // Where it is used: the words that the silhouette is drawn into, and the `FinderMemory`.
+/// let (words, mut memory) = arena.borrow();
 /// ```
 ///
 /// `columns` and `rows` are those of the largest [`crate::image::crop::Crop`], `border` is the number of pixels of the longest
