@@ -117,7 +117,6 @@ impl fmt::Display for Permitted<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::camera::Camera;
     use crate::canonical::CanonicalSpec;
     use crate::library::{Builder, ViewAxis, ViewGrid};

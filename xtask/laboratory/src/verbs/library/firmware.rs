@@ -54,7 +54,7 @@ impl FromStr for Bytes {
 
 /// Canonical frames, pixels, and steps between views, degrees, the smallest library first. After the last refinement ends as
 /// after any finer one.
-pub(super) const LIBRARIES: [(usize, f64); 6] = [
+const LIBRARIES: [(usize, f64); 6] = [
     (64, 5.0),
     (64, 2.5),
     (128, 5.0),
@@ -73,6 +73,8 @@ const MARGIN_DEG: f64 = 3.5;
 /// How far poses lie off the axis and off the library's distance, mm.
 const ASIDE_MM: f64 = 30.0;
 const ALONG_MM: f64 = 40.0;
+/// A surface is looked at closely where its triangles, at as many bytes each as the whole model's, take this much of the room.
+const NEARLY: f64 = 1.1;
 /// Pixels of the part of the frame that the table's memory is for, each side; and of the longest outline.
 const PART: usize = 224;
 const OUTLINE: usize = 900;
@@ -87,12 +89,12 @@ pub(super) struct Order<'o> {
 }
 
 /// One row of the table.
-pub(super) struct Trial {
+struct Trial {
     size: usize,
     step: f64,
-    pub(super) file: Vec<u8>,
+    file: Vec<u8>,
     views: usize,
-    pub(super) library_bytes: usize,
+    library_bytes: usize,
     missed: usize,
     before_deg: f64,
     after_deg: f64,
@@ -110,12 +112,25 @@ pub(super) fn run(order: &Order<'_>, out: &Path) -> Result<u8> {
     if let Some(number) = number {
         return write(&of_whole[number], with_whole, out);
     }
-    let surface = Surface::finest_that_fits(order, &of_whole[0])?;
+    let surface = finest_that_fits(order, &of_whole[0])?;
     let of_surface = trials(order, &surface, &silhouettes)?;
     let number = chosen(&of_surface, order.flash);
     print(&surface, &of_surface, number, order.flash);
     let number = number.context("the surface that fits was made anew and does not")?;
     write(&of_surface[number], with_whole, out)
+}
+
+/// The finest coarser surface that fits with the smallest library; `smallest` is the whole model's trial of that library.
+fn finest_that_fits(order: &Order<'_>, smallest: &Trial) -> Result<Surface> {
+    let surface_bytes = smallest.file.len() - smallest.library_bytes;
+    let each = surface_bytes as f64 / order.model.triangles().len() as f64;
+    let room = order.flash.saturating_sub(smallest.library_bytes) as f64;
+    let may = |triangles: usize| each * triangles as f64 <= NEARLY * room;
+    let fits = |surface: &Surface| {
+        let file = surface.file(&library_of(order, surface, LIBRARIES[0])?)?;
+        Ok(file.len() <= order.flash)
+    };
+    Surface::finest_that_fits(&order.model, may, fits)
 }
 
 /// The smallest of the libraries that fit with which the fewest poses are missed.
@@ -239,11 +254,7 @@ fn trials(
 }
 
 /// The bytes of a library of a surface.
-pub(super) fn library_of(
-    order: &Order<'_>,
-    surface: &Surface,
-    (size, step): (usize, f64),
-) -> Result<Vec<u8>> {
+fn library_of(order: &Order<'_>, surface: &Surface, (size, step): (usize, f64)) -> Result<Vec<u8>> {
     let part = (size * size) as f64 / (USUAL.size() * USUAL.size()) as f64;
     let canonical = CanonicalSpec::new(size, (f64::from(USUAL.area()) * part).round() as u32)?;
     let grid = stepped(&order.grid, step);

@@ -6,15 +6,12 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel, clustered};
 
 use super::deviation::deviation_mm;
-use super::firmware::{LIBRARIES, Order, Trial, library_of};
 
 /// Sides of the cubes within which vertices become one, as part of the model's radius: the finest, how many there are, and how much
 /// larger each is than the one before. Each saves a tenth of the triangles or so: the finest that fits leaves little of the flash.
 const FINEST: f64 = 0.002;
 const CELLS: i32 = 64;
 const LARGER: f64 = 1.06;
-/// A surface is looked at closely where its triangles, at as many bytes each as the whole model's, take this much of the room.
-const NEARLY: f64 = 1.1;
 
 /// One of them, with what a file says of it.
 pub(super) struct Surface {
@@ -32,36 +29,31 @@ impl Surface {
         Ok(Self::of(OwnedModel::new(vertices, triangles)?))
     }
 
-    /// The finest coarser one that fits with the smallest library; `smallest` is the whole model's trial of that library.
-    pub(super) fn finest_that_fits(order: &Order<'_>, smallest: &Trial) -> Result<Self> {
-        let triangles = order.model.triangles().len();
-        let each = (smallest.file.len() - smallest.library_bytes) as f64 / triangles as f64;
-        let room = order.flash.saturating_sub(smallest.library_bytes) as f64;
-        let mut last = triangles;
+    /// The finest coarser one that fits, of those with so few triangles that they may.
+    pub(super) fn finest_that_fits(
+        model: &Model<'_>,
+        may: impl Fn(usize) -> bool,
+        fits: impl Fn(&Self) -> Result<bool>,
+    ) -> Result<Self> {
+        let mut last = model.triangles().len();
         for number in 0..CELLS {
-            let cell_mm = FINEST * LARGER.powi(number) * order.model.bounds().radius;
-            let Some(model) = clustered(&order.model, cell_mm) else {
+            let cell_mm = FINEST * LARGER.powi(number) * model.bounds().radius;
+            let Some(coarse) = clustered(model, cell_mm) else {
                 continue;
             };
-            let now = model.as_model().triangles().len();
-            if now >= last || each * now as f64 > NEARLY * room {
+            let now = coarse.as_model().triangles().len();
+            if now >= last || !may(now) {
                 continue;
             }
             last = now;
-            let mut surface = Self::of(model);
-            if surface
-                .file(&library_of(order, &surface, LIBRARIES[0])?)?
-                .len()
-                <= order.flash
-            {
-                surface.deviation_mm = deviation_mm(&order.model, &surface.model.as_model());
+            let mut surface = Self::of(coarse);
+            if fits(&surface)? {
+                surface.deviation_mm = deviation_mm(model, &surface.model.as_model());
                 return Ok(surface);
             }
         }
         bail!(
-            "no library fits into {} bytes of flash with any surface of the model: the coarsest that is tried has {last} triangles. Give more flash \
-(--flash), or a narrower range of views (--x, --y)",
-            order.flash
+            "no library fits into the flash with any surface of the model. Give more (--flash), or a narrower range of views (--x, --y)"
         )
     }
 
