@@ -1,5 +1,6 @@
 //! First poses of a silhouette from a library: of whole outlines, interpolated between views, and of partial outlines.
 
+mod arena;
 mod bands;
 pub mod estimate;
 pub mod interpolate;
@@ -7,4 +8,5 @@ pub mod partial;
 pub mod rerank;
 mod whole;
 
+pub use arena::LocateNeeds;
 pub use whole::*;

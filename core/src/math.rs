@@ -1,8 +1,12 @@
 //! Elementary functions and small algebra, the same to the last bit on every target.
 
+mod angle;
 mod basic;
 mod decimal;
+mod definite;
 pub(crate) mod eigen;
 
+pub use angle::sin_cos;
 pub use basic::*;
 pub use decimal::Decimal;
+pub use definite::{inverse_spd, solve_spd};

@@ -14,7 +14,7 @@ mod surface;
 pub mod symmetry;
 
 #[cfg(feature = "alloc")]
-pub use coarse::coarser;
+pub use coarse::{clustered, coarser};
 pub use model::{Model, OtherEdges};
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;

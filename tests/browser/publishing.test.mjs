@@ -35,6 +35,8 @@ pageTest('what is published', async (page, t) => {
     assert.equal(deviationsIn(table), FRAMES);
     assert.equal(saved.figure.buffer.toString(), (await written('figure.svg')).toString());
     await sameFilm(saved.film, written, t);
+    // The command's own film, read by a browser: as many frames in the same time.
+    await sameFilm({ ...saved.film, name: 'overlay.webm', buffer: await written('overlay.webm') }, written, t);
   });
   await step(page, t, 'stays the next step when the session is opened again', async () => {
     const next = () => page.getByRole('list', { name: 'Steps' }).locator('[aria-current]').innerText();

@@ -1,4 +1,4 @@
-//! Finds the library and the outline that go into flash, and the linker script.
+//! Finds what goes into flash, a library or an implant, and an outline, and the linker script.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -6,12 +6,23 @@ use std::{env, fs};
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FLUOROPOSE_FIRMWARE_INPUTS");
+    println!("cargo::rerun-if-env-changed=FLUOROPOSE_OUTLINES");
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS").map_or_else(
         || package.join("../../target/firmware/inputs"),
         PathBuf::from,
     );
-    for name in ["femur.library", "femur.outline", "femur.implant"] {
+    for (what, name) in [
+        ("LIBRARY", "femur.library"),
+        (
+            "OUTLINE",
+            part("femur.outline", "tibia.outline", "femur.outline"),
+        ),
+        (
+            "IMPLANT",
+            part("femur.implant", "tibia.implant", "all_round.implant"),
+        ),
+    ] {
         let file = inputs.join(name);
         if !file.is_file() {
             println!(
@@ -19,14 +30,21 @@ fn main() {
             );
         }
         println!("cargo::rerun-if-changed={}", file.display());
+        println!("cargo::rustc-env=FLUOROPOSE_{what}={}", file.display());
     }
-    println!(
-        "cargo::rustc-env=FLUOROPOSE_FIRMWARE_INPUTS={}",
-        inputs.display()
-    );
     if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
         let is_arm = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "arm");
         link(&package, is_arm);
+    }
+}
+
+/// Which of three, by the features.
+fn part<'n>(usual: &'n str, tibia: &'n str, all_round: &'n str) -> &'n str {
+    let is_on = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
+    match (is_on("TIBIA"), is_on("ALL_ROUND")) {
+        (true, _) => tibia,
+        (false, true) => all_round,
+        (false, false) => usual,
     }
 }
 

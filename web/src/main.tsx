@@ -110,7 +110,7 @@ async function start(root: HTMLElement): Promise<void> {
   );
   Object.assign(globalThis, { fluoropose: { atRest, shown } });
   if (kept) await restoreWork(services, keeper, kept);
-  tellLostJobs(services.store, sessionStorage);
+  tellLostJobs(services.store, sessionStorage, () => actions.run({ name: 'work', command: 'follow-film' }));
 }
 
 const root = document.getElementById('page');

@@ -1,4 +1,4 @@
-//! What the firmware proof holds in flash: a coarse library of the built-in femur and an outline of it.
+//! What the firmware proof holds in flash: a library of the built-in femur, implants of both components, outlines of them.
 
 use std::fs;
 use std::path::Path;
@@ -32,6 +32,9 @@ const LIBRARY_DISTANCE_MM: f64 = 900.0;
 /// How finely the implant is made that the firmware holds: some 6000 triangles, as real ones have.
 const IMPLANT_RESOLUTION: f64 = 0.7;
 
+/// Between views from all directions, degrees.
+const ALL_ROUND_DEG: f64 = 10.0;
+
 /// Rotation about x and y in the middle of the library's views, degrees: as
 /// the pose on the frame before would give it.
 const NOMINAL_DEG: [f64; 2] = [3.0, -4.0];
@@ -46,10 +49,9 @@ pub(crate) const TRUTH: EulerPose = EulerPose {
     y_rot_deg: -4.3,
 };
 
-/// Writes `femur.library` and `femur.outline` into `folder`, unless they are there already with these contents.
+/// Writes what the proof may hold into `folder`, unless it is there already with these contents: a library and an outline of the femoral
+/// component, implants of both, and one with views from all directions.
 pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
-    let femur = implant::femur(&implant::Parameters::default())?;
-    let mesh = Model::from_triangles(&femur.vertices, &femur.triangles)?;
     let camera = Camera::from_principal_distance(
         FRAME_SIDE,
         FRAME_SIDE,
@@ -58,32 +60,52 @@ pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
         [0.0; 2],
     )?;
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    write_if_changed(&folder.join("femur.library"), &library(mesh, camera)?)?;
-    let parameters = implant::Parameters {
-        resolution: IMPLANT_RESOLUTION,
-        ..implant::Parameters::default()
-    };
-    let coarser = implant::femur(&parameters)?;
-    let implant = implant_file(&coarser, camera)?;
-    write_if_changed(&folder.join("femur.implant"), &implant)?;
-    write_if_changed(&folder.join("femur.outline"), &outline(&mesh, &camera)?)
+    let write = |name: &str, bytes: &[u8]| write_if_changed(&folder.join(name), bytes);
+    let (fine, coarse) = (implant::Parameters::default(), coarse());
+    let [femur, tibia] = [implant::femur(&fine)?, implant::tibia(&fine)?];
+    let mesh = Model::from_triangles(&femur.vertices, &femur.triangles)?;
+    write("femur.library", &library(mesh, camera)?)?;
+    write("femur.outline", &outline(&mesh, &camera)?)?;
+    let coarser = implant::femur(&coarse)?;
+    write("femur.implant", &implant_file(&coarser, camera, window())?)?;
+    let all_round = ViewGrid::sphere(ALL_ROUND_DEG);
+    write(
+        "all_round.implant",
+        &implant_file(&coarser, camera, all_round)?,
+    )?;
+    let mesh = Model::from_triangles(&tibia.vertices, &tibia.triangles)?;
+    write("tibia.outline", &outline(&mesh, &camera)?)?;
+    let coarser = implant::tibia(&coarse)?;
+    write("tibia.implant", &implant_file(&coarser, camera, window())?)
 }
 
-/// All that refinement needs: 7 x 9 views, 5 degrees apart, in a frame of 64 x 64 pixels.
-fn implant_file(femur: &Triangles, camera: Camera) -> Result<Vec<u8>> {
-    let numbers = |triples: &[[f32; 3]]| triples.iter().flatten().copied().collect();
-    let triangles = femur.triangles.iter().flatten().copied().collect();
-    let owned = OwnedModel::new(numbers(&femur.vertices), triangles)?;
-    let model = owned.as_model();
+/// Parameters of the implants that the firmware holds.
+fn coarse() -> implant::Parameters {
+    implant::Parameters {
+        resolution: IMPLANT_RESOLUTION,
+        ..implant::Parameters::default()
+    }
+}
+
+/// 7 x 9 views, 5 degrees apart: enough for refinement.
+fn window() -> ViewGrid {
     let axis = |count: usize| ViewAxis {
         first: -5.0 * (count / 2) as f64,
         step: 5.0,
         count,
     };
-    let grid = ViewGrid {
+    ViewGrid {
         x: axis(7),
         y: axis(9),
-    };
+    }
+}
+
+/// All that refinement needs, with views in a frame of 64 x 64 pixels.
+fn implant_file(shape: &Triangles, camera: Camera, grid: ViewGrid) -> Result<Vec<u8>> {
+    let numbers = |triples: &[[f32; 3]]| triples.iter().flatten().copied().collect();
+    let triangles = shape.triangles.iter().flatten().copied().collect();
+    let owned = OwnedModel::new(numbers(&shape.vertices), triangles)?;
+    let model = owned.as_model();
     let library = compact(model, camera, CanonicalSpec::COARSE, grid)?;
     let planes = symmetry_planes(model.mesh());
     Ok(write_implant(&model, &library, &planes, 0.0)?)
@@ -116,27 +138,15 @@ fn compact(
     Ok(bytes)
 }
 
-/// 7 x 9 views, a degree apart: 63 x 8 KiB of flash.
+/// The views of Walker et al. 1996, 31 x 41 of them a degree apart, in a frame of 128 x 128 pixels: what a pose takes that is not
+/// refined.
 fn library(mesh: Model<'_>, camera: Camera) -> Result<Vec<u8>> {
-    let axis = |nominal: f64, count: usize| ViewAxis {
-        first: nominal - (count / 2) as f64,
-        step: 1.0,
-        count,
-    };
+    let grid = ViewGrid::default();
     let grid = ViewGrid {
-        x: axis(NOMINAL_DEG[0], 7),
-        y: axis(NOMINAL_DEG[1], 9),
+        x: grid.x.shifted(NOMINAL_DEG[0]),
+        y: grid.y.shifted(NOMINAL_DEG[1]),
     };
-    let canonical = CanonicalSpec::default();
-    let builder = Builder::new(mesh, camera, canonical, grid, LIBRARY_DISTANCE_MM)?;
-    let mut bytes = vec![0; builder.bytes_needed()];
-    let mut scratch = ViewScratch {
-        projected: &mut vec![Projected::default(); builder.projected_needed()],
-        render: &mut vec![0; builder.render_words_needed()],
-        canonical: &mut vec![0; canonical.words_needed()],
-    };
-    builder.build(&mut bytes, &mut scratch)?;
-    Ok(bytes)
+    compact(mesh, camera, CanonicalSpec::new(128, 3750)?, grid)
 }
 
 /// The silhouette at [`TRUTH`] as a polygon through the middles of its border's sides.
@@ -196,11 +206,12 @@ impl Proof {
     }
 }
 
-/// The number in `name: 1.500000 (3ff8000000000000)`, from its bits.
+/// The number in `name: 1.500000 (3ff8000000000000)`, from its bits; none where what people read is not what the language writes of it.
 fn bits(line: &str, name: &str) -> Option<f64> {
     let value = line.trim().strip_prefix(name)?.strip_prefix(": ")?;
-    let (_, hex) = value.strip_suffix(')')?.split_once('(')?;
-    u64::from_str_radix(hex, 16).ok().map(f64::from_bits)
+    let (decimals, hex) = value.strip_suffix(')')?.split_once(" (")?;
+    let value = u64::from_str_radix(hex, 16).ok().map(f64::from_bits)?;
+    (decimals == format!("{value:.6}")).then_some(value)
 }
 
 #[cfg(test)]
@@ -221,14 +232,18 @@ mod tests {
         for (index, name) in numbers.iter().enumerate() {
             // What people read is rounded; the bits count.
             let value = index as f64 + 0.123_456_789;
-            lines += &format!("  {name}: {value:.1} ({:016x})\n", value.to_bits());
+            lines += &format!("  {name}: {value:.6} ({:016x})\n", value.to_bits());
         }
-        lines += "  x mm: 9.0 (4022000000000000)\n";
+        lines += "  x mm: 9.000000 (4022000000000000)\n";
         let proof = Proof::read(&lines).unwrap();
         assert_eq!(
             proof.pose.translation,
             [0.123_456_789, 1.123_456_789, 2.123_456_789]
         );
+        let misread = lines
+            .replace("x mm: 0.1", "x mm: 0.2")
+            .replace("9.000000", "9.1");
+        assert!(Proof::read(&misread).is_err());
         let missing = lines.replace("z mm", "depth");
         assert!(
             Proof::read(&missing)
@@ -250,7 +265,7 @@ mod tests {
         );
         let library = fs::read(folder.join("femur.library")).unwrap();
         let library = fluoropose::library::Library::open(&library).unwrap();
-        assert_eq!(library.views(), 63);
+        assert_eq!(library.views(), 31 * 41);
         fs::remove_dir_all(folder).unwrap();
     }
 }

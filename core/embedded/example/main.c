@@ -37,7 +37,7 @@ static int fail(fluoropose *finder, const char *what, fluoropose_status status) 
     return 1;
 }
 
-static void report(const fluoropose_found *found, const fluoropose_candidate *best, const char *sentence) {
+static void report(const fluoropose_found *found, const fluoropose_candidate *best) {
     static const char *const VERDICTS[] = {"good", "doubtful", "none"};
     static const char *const NUMBERS[] = {"x mm", "y mm", "z mm", "z_rot deg", "x_rot deg", "y_rot deg"};
     write_number(found->part[2]);
@@ -49,8 +49,6 @@ static void report(const fluoropose_found *found, const fluoropose_candidate *be
     write_number(found->chosen);
     write_words(" chosen\n");
     write_words(VERDICTS[found->verdict]);
-    write_words(": ");
-    write_words(sentence);
     write_words("\n");
     for (int k = 0; k < 6; k++) {
         write_double(NUMBERS[k], k < 3 ? best->translation_mm[k] : best->rotations_deg[k - 3]);
@@ -98,7 +96,6 @@ int application(void) {
     const uint64_t all = board_ticks() - begun;
     fluoropose_found found;
     fluoropose_candidate best;
-    char sentence[200];
     if (status == FLUOROPOSE_OK) {
         status = fluoropose_found_of(finder, &found);
     }
@@ -108,8 +105,7 @@ int application(void) {
     if (status != FLUOROPOSE_OK) {
         return fail(finder, "no pose was found", status);
     }
-    fluoropose_sentence(finder, sentence, sizeof sentence);
-    report(&found, &best, sentence);
+    report(&found, &best);
     tell("candidates, mirror images, verdict, in slices", all * 5 / 8, " instructions\n");
     tell("longest slice", longest * 5 / 8, " instructions\n");
     tell("slices", slices, " slices\n");

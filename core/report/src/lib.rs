@@ -22,6 +22,8 @@ mod pdf;
 mod picture;
 pub mod read;
 mod svg;
+#[cfg(feature = "webm")]
+pub mod webm;
 pub mod write;
 
 pub use count::counted;

@@ -117,11 +117,10 @@ fn in_library(
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
 ) -> Result<LocatedPoses<FIRST_POSES>, FindError> {
-    let drawn = &mut *memory.refine.drawn;
     let mut work = memory.workspace.reborrow();
     if work.bytes.is_empty() {
         // Nothing is drawn yet.
-        work.bytes = bytemuck::cast_slice_mut(drawn);
+        work = work.with_words(memory.refine.drawn);
     }
     Ok(locate(silhouette.mask(), camera, component.library, work)?)
 }

@@ -1,12 +1,10 @@
 //! Working memory whose size is known when a program is built: of an implant file, and of the part of a frame that is looked at.
 
 use super::wire::{COUNTS_AT, HEADER_BYTES, SIZES};
-use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Word, words_needed};
-use crate::locate::workspace_bytes_needed;
+use crate::locate::LocateNeeds;
 use crate::refine::{BorderPixel, places_needed};
 use crate::render::{Projected, scratch_for};
-use crate::search::scores_needed;
 
 /// Lengths of the working memory with which [`crate::find()`] finds the implant of a file in a part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,20 +45,15 @@ impl ArenaNeeds {
         }
         let vertices = u32_at(file, COUNTS_AT) as usize;
         let edges = u32_at(file, COUNTS_AT + 24) as usize;
-        let [area, size, x, y] = [
-            u32_at(file, library + 12),
-            u16_at(file, library + 16),
-            u16_at(file, library + 18),
-            u16_at(file, library + 20),
-        ];
-        let Some(canonical) = CanonicalSpec::possible(size as usize, area) else {
-            panic!("the library of the implant file has no canonical frame");
-        };
-        let bytes = workspace_bytes_needed(&canonical);
+        let LocateNeeds {
+            canonical,
+            scores,
+            bytes,
+        } = LocateNeeds::of(file, library);
         let serves = words_needed(columns, rows) * size_of::<Word>() >= bytes;
         Self {
-            canonical: canonical.words_needed(),
-            scores: scores_needed((x * y) as usize),
+            canonical,
+            scores,
             bytes: if serves { 0 } else { bytes },
             projected: scratch_for(vertices, rows, edges),
             words: words_needed(columns, rows),
@@ -69,12 +62,8 @@ impl ArenaNeeds {
     }
 }
 
-const fn u16_at(bytes: &[u8], at: usize) -> u32 {
-    u16::from_le_bytes([bytes[at], bytes[at + 1]]) as u32
-}
-
 const fn u32_at(bytes: &[u8], at: usize) -> u32 {
-    u16_at(bytes, at) | u16_at(bytes, at + 2) << 16
+    u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }
 
 /// Declares a type that owns all working memory with which [`crate::find()`] finds the implant of a file in a part of a frame,
@@ -84,6 +73,8 @@ const fn u32_at(bytes: &[u8], at: usize) -> u32 {
 /// static FEMUR: Aligned<[u8; 98_304]> = Aligned(*include_bytes!("femur.implant"));
 /// fluoropose::finder_arena!(pub Arena, &FEMUR.0, columns: 192, rows: 192, border: 900);
 /// static ARENA: Mutex<Arena> = Mutex::new(Arena::new());
+/// // Where it is used: the words that the silhouette is drawn into, and the `FinderMemory`.
+/// let (words, mut memory) = arena.borrow();
 /// ```
 ///
 /// `columns` and `rows` are those of the largest [`crate::image::crop::Crop`], `border` is the number of pixels of the longest

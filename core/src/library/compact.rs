@@ -10,12 +10,14 @@
 //! - the sketch of each view: a byte for each of those blocks, then zeros to a multiple of 32;
 //! - the runs of each view (`runs.rs`).
 
+use core::iter::Peekable;
 use core::ops::Range;
+use core::slice;
 
 use super::LibraryInfo;
 use super::error::LibraryError;
-use super::runs::are_runs;
-use super::sketch::{BLOCK, STRIDE, at_most_255, block_row_of_runs, blocks};
+use super::runs::are_runs_with;
+use super::sketch::{BLOCK, BlockRow, STRIDE, at_most_255, blocks};
 use super::wire::{Reader, SHORT_RECORD_BYTES};
 
 /// The parts of a body in the compact layout.
@@ -65,29 +67,73 @@ impl<'a> Sketches<'a> {
         self.all.get(start..end).unwrap_or_default()
     }
 
-    /// Whether they are those of a view with these runs.
-    fn agree(&self, view: usize, runs: &[u8], info: &LibraryInfo) -> bool {
-        let across = info.canonical.size() / BLOCK;
-        let mut sketch = self.of(view).iter();
-        let mut places = self.places().peekable();
-        let blocks_agree =
-            self.common
-                .chunks_exact(across.max(1))
-                .enumerate()
-                .all(|(row, common)| {
-                    let counts = block_row_of_runs(runs, row);
-                    (row * across..)
-                        .zip(common)
-                        .zip(counts)
-                        .all(|((block, common), count)| {
-                            let kept = match places.next_if_eq(&block) {
-                                Some(_) => sketch.next().copied().filter(|_| *common == 0),
-                                None => Some(*common),
-                            };
-                            kept == Some(at_most_255(count))
-                        })
-                });
-        blocks_agree && places.next().is_none() && sketch.all(|&padding| padding == 0)
+    /// The sketch of a view, to be compared with its runs.
+    fn beside(
+        &self,
+        view: usize,
+        info: &LibraryInfo,
+    ) -> Comparison<'a, impl Iterator<Item = usize> + use<'a>> {
+        let across = (info.canonical.size() / BLOCK).max(1);
+        Comparison {
+            common: self.common.chunks_exact(across),
+            places: self.places().peekable(),
+            sketch: self.of(view).iter(),
+            across,
+            row: 0,
+            block: 0,
+            counts: BlockRow::EMPTY,
+            is_same: true,
+        }
+    }
+}
+
+/// The sketch of a view beside its runs, block row by block row.
+struct Comparison<'a, P: Iterator<Item = usize>> {
+    common: slice::ChunksExact<'a, u8>,
+    places: Peekable<P>,
+    sketch: slice::Iter<'a, u8>,
+    across: usize,
+    /// The block row that runs are gathered for, and the first block of it.
+    row: usize,
+    block: usize,
+    counts: BlockRow,
+    is_same: bool,
+}
+
+impl<'a, P: Iterator<Item = usize>> Comparison<'a, P> {
+    /// Adds a run; block rows above its own are whole by then.
+    #[inline(always)]
+    fn add(&mut self, row: usize, start: usize, end: usize) {
+        while self.row < row / BLOCK && self.is_same {
+            self.compare();
+        }
+        self.counts.add(start, end);
+    }
+
+    fn compare(&mut self) {
+        let common = self.common.next();
+        let Some(common) = common else {
+            self.is_same = false;
+            return;
+        };
+        let counts = self.counts.take(self.across);
+        for ((block, &common), count) in (self.block..).zip(common).zip(counts) {
+            let kept = match self.places.next_if_eq(&block) {
+                Some(_) => self.sketch.next().copied().filter(|_| common == 0),
+                None => Some(common),
+            };
+            self.is_same &= kept == Some(at_most_255(count));
+        }
+        self.row += 1;
+        self.block += self.across;
+    }
+
+    /// Whether all of it is the same.
+    fn finish(mut self) -> bool {
+        while self.is_same && self.common.len() > 0 {
+            self.compare();
+        }
+        self.is_same && self.places.next().is_none() && self.sketch.all(|&padding| padding == 0)
     }
 }
 
@@ -118,11 +164,17 @@ impl<'a> Compact<'a> {
         let mut end = 0;
         for view in 0..views {
             let next = self.end(view);
+            let mut comparison = self.sketches.beside(view, info);
             let runs = self.runs.get(end..next);
-            let Some(runs) = runs.filter(|runs| are_runs(runs, info.canonical.size())) else {
+            let are_runs = runs.is_some_and(|runs| {
+                are_runs_with(runs, info.canonical.size(), |row, start, end| {
+                    comparison.add(row, start, end);
+                })
+            });
+            if !are_runs {
                 return Err(LibraryError::Value("runs"));
-            };
-            if !self.sketches.agree(view, runs, info) {
+            }
+            if !comparison.finish() {
                 return Err(LibraryError::Value("sketch"));
             }
             end = next;

@@ -1,5 +1,7 @@
 //! Why bytes are no library, and why none can be built.
 
+use core::fmt;
+
 use thiserror::Error;
 
 use super::wire::{PLAIN_VERSION, VERSION};
@@ -47,7 +49,7 @@ pub enum LibraryError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A parameter is impossible.
-    #[error("{0}")]
+    #[error("{}", Permitted(.0))]
     Parameter(LibraryError),
     /// The model would touch the focus.
     #[error(
@@ -85,4 +87,72 @@ pub enum BuildError {
     /// The views' camera is impossible.
     #[error(transparent)]
     Camera(#[from] CameraError),
+}
+
+/// Names of what a caller chooses, in `LibraryError::Value`.
+pub(super) const X_ROTATIONS: &str = "range of x rotations";
+pub(super) const Y_ROTATIONS: &str = "range of y rotations";
+pub(super) const DISTANCE: &str = "distance";
+
+/// What is wrong with a parameter that was asked for, and what may be: nothing was written that could be built again.
+struct Permitted<'e>(&'e LibraryError);
+
+impl fmt::Display for Permitted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let &LibraryError::Value(what) = self.0 else {
+            return write!(f, "{}", self.0);
+        };
+        let permitted = match what {
+            X_ROTATIONS => "it may reach from -89 to 89 degrees, in 4096 steps at most",
+            Y_ROTATIONS => "it may reach from -360 to 360 degrees, in 4096 steps at most",
+            DISTANCE => "it must be more than 0 and at most 100 000 mm",
+            _ => "are the model's lengths in mm?",
+        };
+        write!(
+            f,
+            "the {what} that was asked for is not possible: {permitted}"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::camera::Camera;
+    use crate::canonical::CanonicalSpec;
+    use crate::library::{Builder, ViewAxis, ViewGrid};
+    use crate::mesh::edges::fake;
+    use crate::mesh::{Mesh, Model};
+    use std::string::{String, ToString as _};
+
+    #[test]
+    fn what_was_asked_for_is_told_with_what_may_be() {
+        let (vertices, triangles) = fake::torus(&[0.0; 40]);
+        let model = Model::new(Mesh::new(&vertices, &triangles).expect("valid"));
+        let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
+        let said = |x: [f64; 2], y: [f64; 2], distance| -> String {
+            let axis = |[first, last]: [f64; 2]| ViewAxis {
+                first,
+                step: 2.0,
+                count: ((last - first) / 2.0) as usize + 1,
+            };
+            let grid = ViewGrid {
+                x: axis(x),
+                y: axis(y),
+            };
+            match Builder::new(model, camera, CanonicalSpec::USUAL, grid, distance) {
+                Ok(_) => String::new(),
+                Err(error) => error.to_string(),
+            }
+        };
+        let (narrow, distance) = ([-10.0, 10.0], 1000.0);
+        assert_eq!(
+            said([60.0, 90.0], narrow, distance),
+            "the range of x rotations that was asked for is not possible: it may reach from -89 to 89 degrees, in 4096 steps at most"
+        );
+        assert_eq!(said([-89.0, 89.0], narrow, distance), "");
+        let wide = said(narrow, [0.0, 362.0], distance);
+        assert!(wide.contains("y rotations") && wide.contains("from -360 to 360 degrees"));
+        let far = said(narrow, narrow, 2e5);
+        assert!(far.contains("at most 100 000 mm"), "{far}");
+    }
 }

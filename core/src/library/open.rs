@@ -1,7 +1,7 @@
 //! Opening a library: everything is checked once, afterwards nothing can fail.
 
 use super::compact::{self, Compact, Sketches};
-use super::error::LibraryError;
+use super::error::{DISTANCE, LibraryError, X_ROTATIONS, Y_ROTATIONS};
 use super::info::{LibraryInfo, ViewGrid, ViewRecord};
 use super::runs::{bands, draw_runs, overlap, spans};
 use super::wire::{
@@ -76,7 +76,7 @@ impl<'a> Library<'a> {
     ///
     /// # Errors
     /// [`LibraryError`] for bytes that no library begins with, or of another length.
-    pub(crate) fn trusted(bytes: &'a [u8]) -> Result<Self, LibraryError> {
+    pub fn trusted(bytes: &'a [u8]) -> Result<Self, LibraryError> {
         let (header, rest) = split_header(bytes)?;
         let (info, body) = read_header(header)?;
         let given = bytes.len() as u64;
@@ -342,9 +342,9 @@ pub(super) fn check_info(info: &LibraryInfo) -> Result<(), LibraryError> {
         (1..=4096).contains(&axis.count) && axis.step > 0.0 && axis.first >= -reach && last <= reach
     };
     let checks = [
-        ("range of x rotations", axis(&info.grid.x, 89.0)),
-        ("range of y rotations", axis(&info.grid.y, 360.0)),
-        ("distance", info.distance > 0.0 && info.distance <= 1e5),
+        (X_ROTATIONS, axis(&info.grid.x, 89.0)),
+        (Y_ROTATIONS, axis(&info.grid.y, 360.0)),
+        (DISTANCE, info.distance > 0.0 && info.distance <= 1e5),
         ("focal length", info.focal >= 1.0 && info.focal <= 1e7),
         (
             "reference point",

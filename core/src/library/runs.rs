@@ -195,15 +195,30 @@ pub(crate) fn spans(pieces: &[[u8; 2]]) -> impl Iterator<Item = (usize, usize)> 
 
 /// Whether bytes are the runs of a view of `size` x `size` pixels: rows that rise, no more runs than a row has room for,
 /// which end within it, and nothing behind.
+#[cfg(test)]
 pub(super) fn are_runs(bytes: &[u8], size: usize) -> bool {
+    are_runs_with(bytes, size, |_, _, _| ())
+}
+
+/// The same; `visit` gets the row, the start and the end of each run up to the first that is none.
+pub(super) fn are_runs_with(
+    bytes: &[u8],
+    size: usize,
+    mut visit: impl FnMut(usize, usize, usize),
+) -> bool {
     let mut bands = bands(bytes);
     let mut next_row = 0;
     for band in &mut bands {
         let rows = band.pieces.len() / band.per_row;
         let inside = band.first_row >= next_row && band.first_row + rows <= size;
-        let ends = |(_, pieces)| spans(pieces).all(|(_, end)| end <= size);
+        let mut ends = |(row, pieces)| {
+            spans(pieces).all(|(start, end)| {
+                visit(row, start, end);
+                end <= size
+            })
+        };
         let few = band.per_row <= row_most(size);
-        if rows == 0 || !few || !inside || !band.rows().all(ends) {
+        if rows == 0 || !few || !inside || !band.rows().all(&mut ends) {
             return false;
         }
         next_row = band.first_row + rows;

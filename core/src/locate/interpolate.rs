@@ -31,6 +31,7 @@ const REACH: usize = 2;
 /// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
 /// is the minimum of a quadratic fitted to the scores.
 #[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch) -> FineView {
     let library = search.library();
     let grid = &library.info().grid;

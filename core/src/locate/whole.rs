@@ -14,7 +14,6 @@ use crate::pose::Pose;
 use crate::search::kernels::Kernels;
 use crate::search::{MatchError, Scores, scores_needed};
 use crate::search::{Query, ViewSearch, ViewSearchMemory, query_bytes_needed, search_bytes_needed};
-use crate::shortlist::first_of;
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -52,6 +51,18 @@ impl Workspace<'_> {
             scores: self.scores,
             bytes: self.bytes,
             kernels: self.kernels,
+        }
+    }
+
+    /// The same with words in place of its bytes: those of the silhouette, of which nothing is needed once its form is known.
+    #[must_use]
+    pub fn with_words<'w>(self, words: &'w mut [Word]) -> Workspace<'w>
+    where
+        Self: 'w,
+    {
+        Workspace {
+            bytes: bytemuck::cast_slice_mut(words),
+            ..self
         }
     }
 }
@@ -117,11 +128,42 @@ pub fn locate<const K: usize>(
     mask: &Mask<'_>,
     camera: &Camera,
     library: &Library<'_>,
+    mut work: Workspace<'_>,
+) -> Result<LocatedPoses<K>, LocateError> {
+    let form = canonical_form(mask, camera, library, &mut work)?;
+    locate_form(&form, camera, library, work)
+}
+
+/// The first half of [`locate`]: the canonical form of a silhouette, whose pixels are needed no more then.
+///
+/// # Errors
+/// As [`locate`].
+#[cfg_attr(target_os = "none", inline(never))]
+pub fn canonical_form(
+    mask: &Mask<'_>,
+    camera: &Camera,
+    library: &Library<'_>,
+    work: &mut Workspace<'_>,
+) -> Result<CanonicalForm, LocateError> {
+    let spec = &library.info().canonical;
+    let straight = words_of(spec, work.canonical)?;
+    Ok(canonicalise(mask, spec, camera.aspect(), straight)?)
+}
+
+/// The second half of [`locate`]: the poses of the silhouette of which [`canonical_form`] told the form, in the same `work`. Where
+/// this has no bytes, the words of the silhouette serve ([`Workspace::with_words`]).
+///
+/// # Errors
+/// As [`locate`].
+#[cfg_attr(target_os = "none", inline(never))]
+pub fn locate_form<const K: usize>(
+    form: &CanonicalForm,
+    camera: &Camera,
+    library: &Library<'_>,
     work: Workspace<'_>,
 ) -> Result<LocatedPoses<K>, LocateError> {
     let info = library.info();
-    let (form, [straight, rotated]) =
-        both_directions(mask, camera, &info.canonical, work.canonical, work.rotated)?;
+    let [straight, rotated] = both_directions(&info.canonical, work.canonical, work.rotated)?;
     let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
     let query = Query::new(&info.canonical, straight, rotated, prepared)?;
     let memory = ViewSearchMemory {
@@ -130,19 +172,25 @@ pub fn locate<const K: usize>(
     };
     let mut search = ViewSearch::new(library, &query, &work.kernels, memory)?;
     let rivals: Vec<_, K> = search.rivals();
-    let poses = rivals.iter().map(|candidate| {
+    // Made where it is handed back: a copy of it takes kilobytes of stack.
+    let mut found = Ok(LocatedPoses {
+        form: *form,
+        poses: Vec::new(),
+    });
+    for candidate in &rivals {
         let fine = interpolate(&mut search, candidate);
-        Located {
-            pose: pose_from_view(camera, info, &form, &fine),
+        let located = Located {
+            pose: pose_from_view(camera, info, form, &fine),
             view: candidate.view,
             fine,
             by_pieces: false,
+        };
+        if let Ok(LocatedPoses { poses, .. }) = &mut found {
+            // There is room for as many.
+            let _ = poses.push(located);
         }
-    });
-    Ok(LocatedPoses {
-        form,
-        poses: first_of(poses),
-    })
+    }
+    found
 }
 
 /// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them
@@ -154,11 +202,11 @@ pub fn score_views<'w>(
     mask: &Mask<'_>,
     camera: &Camera,
     library: &Library<'_>,
-    work: Workspace<'w>,
+    mut work: Workspace<'w>,
 ) -> Result<(CanonicalForm, Scores<'w>), LocateError> {
+    let form = canonical_form(mask, camera, library, &mut work)?;
     let spec = &library.info().canonical;
-    let (form, [straight, rotated]) =
-        both_directions(mask, camera, spec, work.canonical, work.rotated)?;
+    let [straight, rotated] = both_directions(spec, work.canonical, work.rotated)?;
     let (prepared, _) = split_bytes(work.bytes, spec)?;
     let query = Query::new(spec, straight, rotated, prepared)?;
     let scores = Scores::fill(library, work.scores, |view, reversed| {
@@ -167,21 +215,23 @@ pub fn score_views<'w>(
     Ok((form, scores))
 }
 
-/// The canonical form of a mask, as it is and rotated by 180 degrees.
+/// A canonical mask as it is and rotated by 180 degrees.
 fn both_directions<'w>(
-    mask: &Mask<'_>,
-    camera: &Camera,
     spec: &CanonicalSpec,
     straight: &'w mut [Word],
     rotated: &'w mut [Word],
-) -> Result<(CanonicalForm, [&'w [Word]; 2]), LocateError> {
-    const WORDS: &str = "words of canonical mask";
-    let words = spec.words_needed();
-    let straight = first(WORDS, words, straight).map_err(MatchError::Memory)?;
-    let rotated = first(WORDS, words, rotated).map_err(MatchError::Memory)?;
-    let form = canonicalise(mask, spec, camera.aspect(), straight)?;
+) -> Result<[&'w [Word]; 2], LocateError> {
+    let (straight, rotated) = (words_of(spec, straight)?, words_of(spec, rotated)?);
     reverse(straight, rotated);
-    Ok((form, [straight, rotated]))
+    Ok([straight, rotated])
+}
+
+fn words_of<'w>(spec: &CanonicalSpec, words: &'w mut [Word]) -> Result<&'w mut [Word], MatchError> {
+    Ok(first(
+        "words of canonical mask",
+        spec.words_needed(),
+        words,
+    )?)
 }
 
 /// The query's bytes and the sketches'.

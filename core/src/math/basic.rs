@@ -5,6 +5,8 @@
 //! feature `micromath` swaps in where they can change the order of candidates but no number
 //! that is reported.
 
+use super::angle::sin_cos;
+
 /// A 3 x 3 matrix, row by row.
 pub type Matrix3 = [[f64; 3]; 3];
 /// A vector of three components.
@@ -30,12 +32,6 @@ pub(crate) fn sqrt_single(x: f32) -> f32 {
 #[must_use]
 pub(crate) fn ln_1p_single(x: f32) -> f32 {
     libm::log1pf(x)
-}
-
-/// Sine and cosine of an angle in radians.
-#[must_use]
-pub fn sin_cos(radians: f64) -> (f64, f64) {
-    libm::sincos(radians)
 }
 
 /// Angle of the vector `(x, y)` in radians, -pi to pi.
@@ -239,60 +235,6 @@ pub(crate) fn rotation_vector(rotation: &Matrix3) -> Vector3 {
     scale(&longest, angle / norm(&longest))
 }
 
-/// Solves the symmetric positive definite system `a * x = b` by Cholesky's method, in place.
-///
-/// Returns `None` where `a` is not positive definite. Golub and Van Loan, *Matrix
-/// Computations*, section 4.2.
-#[must_use]
-#[cfg_attr(target_os = "none", inline(never))]
-pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64; N]> {
-    for column in 0..N {
-        for k in 0..column {
-            for row in column..N {
-                a[row][column] -= a[row][k] * a[column][k];
-            }
-        }
-        if a[column][column].is_nan() || a[column][column] <= 0.0 {
-            return None;
-        }
-        let pivot = sqrt(a[column][column]);
-        for row in a.iter_mut().skip(column) {
-            row[column] /= pivot;
-        }
-    }
-    for row in 0..N {
-        for k in 0..row {
-            b[row] -= a[row][k] * b[k];
-        }
-        b[row] /= a[row][row];
-    }
-    for row in (0..N).rev() {
-        for k in row + 1..N {
-            b[row] -= a[k][row] * b[k];
-        }
-        b[row] /= a[row][row];
-    }
-    Some(b)
-}
-
-/// Inverse of a symmetric positive definite matrix, column by column; symmetric to the last bit.
-///
-/// Returns `None` where `a` is not positive definite.
-#[must_use]
-#[cfg_attr(target_os = "none", inline(never))]
-pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
-    let mut columns = [[0.0; N]; N];
-    for (k, column) in columns.iter_mut().enumerate() {
-        let mut unit = [0.0; N];
-        unit[k] = 1.0;
-        *column = solve_spd(*a, unit)?;
-    }
-    let mean = |row: usize, column: usize| (columns[row][column] + columns[column][row]) / 2.0;
-    Some(core::array::from_fn(|row| {
-        core::array::from_fn(|column| mean(row, column))
-    }))
-}
-
 /// Product `a * b` of square matrices of any size.
 #[must_use]
 #[cfg_attr(target_os = "none", inline(never))]
@@ -342,18 +284,5 @@ mod tests {
             let turns = (angle - wrapped) / core::f64::consts::PI;
             assert!((turns - round(turns)).abs() < 1e-12);
         }
-    }
-
-    #[test]
-    fn cholesky_solves_what_it_was_given() {
-        let a = [[4.0, 2.0, 0.4], [2.0, 5.0, 1.0], [0.4, 1.0, 3.0]];
-        let x = [1.0, -2.0, 3.0];
-        let b = apply(&a, &x);
-        let solved = solve_spd(a, b).expect("positive definite");
-        for (got, want) in solved.iter().zip(&x) {
-            assert!((got - want).abs() < 1e-12);
-        }
-        assert!(solve_spd([[1.0, 2.0], [2.0, 1.0]], [1.0, 1.0]).is_none());
-        assert!(solve_spd([[f64::NAN]], [1.0]).is_none());
     }
 }

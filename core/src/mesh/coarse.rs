@@ -7,17 +7,28 @@ use super::model::Model;
 use super::owned::OwnedModel;
 use crate::math::floor;
 
-/// A coarser level is worth its making where it has at most one of this many triangles.
+/// A coarser level is worth its making for a search where it has at most one of this many triangles.
 const WORTH: usize = 2;
 
-/// A model with fewer triangles, all vertices within a cube of the side `cell_mm` drawn together to their mean (vertex
-/// clustering: Rossignac and Borrel, *Multi-resolution 3D approximations for rendering complex scenes*, 1993), so that no
-/// vertex moves by more than the cube's diagonal. `None` where that would save less than half of the triangles, or nothing
-/// would be left.
+/// A model with at most half as many triangles, as [`clustered`] makes it. `None` where that would save less, or nothing would be
+/// left.
 ///
 /// It serves a search, never an answer: its silhouette is not the model's, and its digest another.
 #[must_use]
 pub fn coarser(model: &Model<'_>, cell_mm: f64) -> Option<OwnedModel> {
+    drawn_together(model, cell_mm, model.triangles().len() / WORTH)
+}
+
+/// A model with fewer triangles, all vertices within a cube of the side `cell_mm` drawn together to their mean (vertex
+/// clustering: Rossignac and Borrel, *Multi-resolution 3D approximations for rendering complex scenes*, 1993), so that no
+/// vertex moves by more than the cube's diagonal. `None` where that would save no triangle, or nothing would be left.
+#[must_use]
+pub fn clustered(model: &Model<'_>, cell_mm: f64) -> Option<OwnedModel> {
+    drawn_together(model, cell_mm, model.triangles().len().saturating_sub(1))
+}
+
+/// [`clustered`], `None` where more than `most` triangles would be left.
+fn drawn_together(model: &Model<'_>, cell_mm: f64, most: usize) -> Option<OwnedModel> {
     if cell_mm.is_nan() || cell_mm <= 0.0 {
         return None;
     }
@@ -47,7 +58,7 @@ pub fn coarser(model: &Model<'_>, cell_mm: f64) -> Option<OwnedModel> {
         .filter(is_left)
         .flatten()
         .collect();
-    if WORTH * triangles.len() / 3 > model.triangles().len() {
+    if triangles.len() / 3 > most {
         return None;
     }
     let means = sums
@@ -90,10 +101,13 @@ mod tests {
         let radius = model.bounds().radius;
         assert!(coarser(&model, radius / 1000.0).is_none());
         assert!(coarser(&model, f64::NAN).is_none());
+        assert!(clustered(&model, f64::NAN).is_none());
         let (fine, cell) = (drawn(&model), radius / 3.0);
         let Some(coarse) = coarser(&model, cell) else {
             panic!("a third of the radius draws vertices together");
         };
+        let same = clustered(&model, cell).expect("fewer triangles");
+        assert_eq!(same.as_model().triangles(), coarse.as_model().triangles());
         assert!(2 * coarse.as_model().triangles().len() <= triangles.len());
         let differ: u32 = fine
             .iter()

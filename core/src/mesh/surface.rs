@@ -54,24 +54,48 @@ pub struct Bounds {
 
 impl Bounds {
     fn of(vertices: &[[f32; 3]]) -> Self {
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
+        // Exact in 32 bits, which a microcontroller has.
+        let mut low = [f32::INFINITY; 3];
+        let mut high = [f32::NEG_INFINITY; 3];
         for vertex in vertices {
             for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(vertex) {
-                *low = low.min(f64::from(x));
-                *high = high.max(f64::from(x));
+                *low = if x < *low { x } else { *low };
+                *high = if x > *high { x } else { *high };
             }
         }
-        let centre = core::array::from_fn(|k| (low[k] + high[k]) / 2.0);
-        let squared = vertices.iter().fold(0.0f64, |most, vertex| {
-            let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
-            most.max(crate::math::dot(&d, &d))
-        });
+        let centre = core::array::from_fn(|k| (f64::from(low[k]) + f64::from(high[k])) / 2.0);
+        let squared = farthest_squared(vertices, &centre, [&low, &high]);
         Self {
             centre,
             radius: crate::math::sqrt(squared),
         }
     }
+}
+
+/// The square of the distance from `centre` to the vertex that is farthest. Most are so much nearer, as 32 bits tell, that 64 are not
+/// asked: where the box lies so near the origin that these are digits enough.
+fn farthest_squared(vertices: &[[f32; 3]], centre: &Vector3, [low, high]: [&[f32; 3]; 2]) -> f64 {
+    let near = centre.map(|x| x as f32);
+    let reach = |k: usize| (high[k] - low[k], low[k].abs().max(high[k].abs()));
+    // Of a difference that is more than a part in 256 of a number, rounding takes less than a part in 2^15.
+    let is_near = (0..3).all(|k| reach(k).0 * 256.0 > reach(k).1);
+    let (mut most, mut likely) = (0.0f64, 0.0f32);
+    for vertex in vertices {
+        let rough = (0..3).fold(0.0f32, |sum, k| {
+            let off = vertex[k] - near[k];
+            sum + off * off
+        });
+        if is_near && rough < likely {
+            continue;
+        }
+        let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
+        let squared = crate::math::dot(&d, &d);
+        if squared > most {
+            most = squared;
+            likely = squared as f32 * (1.0 - 1.0 / 1024.0);
+        }
+    }
+    most
 }
 
 /// See [`Mesh::mark`].
@@ -209,6 +233,41 @@ fn sha_256(mesh: &Mesh<'_>) -> ModelDigest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Oracle: every vertex in 64 bits.
+        #[test]
+        fn the_sphere_is_that_of_every_vertex(
+            points in proptest::collection::vec(proptest::array::uniform3(-1.0..1.0f32), 1..60),
+            size in 1e-3..60.0f32,
+            flat in proptest::bool::weighted(0.2),
+            origin in proptest::array::uniform3(prop_oneof![Just(0.0f32), -50.0..50.0f32, -9_000.0..9_000.0f32]),
+        ) {
+            let place = |p: [f32; 3]| core::array::from_fn(|k| {
+                let own = if flat && k == 1 { 0.0 } else { p[k] };
+                own * size + origin[k]
+            });
+            // On a sphere many are nearly the farthest.
+            let on_sphere = |p: [f32; 3]| {
+                let length = crate::math::sqrt_single(p.iter().map(|x| x * x).sum::<f32>()).max(1e-3);
+                p.map(|x| x / length)
+            };
+            let inner = points.iter().copied();
+            let vertices: std::vec::Vec<[f32; 3]> = inner.clone().chain(inner.map(on_sphere)).map(place).collect();
+            let along = |k: usize| vertices.iter().map(move |v| f64::from(v[k]));
+            let centre: Vector3 = core::array::from_fn(|k| {
+                (along(k).fold(f64::INFINITY, f64::min) + along(k).fold(f64::NEG_INFINITY, f64::max)) / 2.0
+            });
+            let farthest = vertices.iter().fold(0.0f64, |most, vertex| {
+                let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
+                most.max(crate::math::dot(&d, &d))
+            });
+            let bounds = Bounds::of(&vertices);
+            prop_assert_eq!(bounds.centre, centre);
+            prop_assert_eq!(bounds.radius, crate::math::sqrt(farthest));
+        }
+    }
 
     #[test]
     fn faults_are_named() {

@@ -208,6 +208,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
 
     /// The best `K` of these minima whose unmatched pixels exceed the best one's by no more than four steps of the grid
     /// there change: a view that differs more does not explain the silhouette.
+    #[cfg_attr(target_os = "none", inline(never))]
     pub fn rivals<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
         let best = self.best::<1>(Directions::Both);
         let Some(best) = best.first() else {

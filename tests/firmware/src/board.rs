@@ -1,7 +1,9 @@
 //! The proof on a board: results to whoever watches, instructions by its clock, stack by painting it.
 
 use core::fmt::{self, Write};
+use core::panic::PanicInfo;
 
+use fluoropose_firmware::writing::{whole, words};
 use fluoropose_firmware::{DATA, Memory};
 
 #[cfg(target_arch = "arm")]
@@ -13,8 +15,20 @@ mod stack;
 /// Lines that start with this are not compared with the host's.
 const INFORMATION: &str = "info";
 
-/// What the proof writes, before it is shown.
-type Lines = heapless::String<8192>;
+/// What the proof tells, before it is shown: its lines, and the instructions of each stage.
+struct Told {
+    lines: heapless::String<8192>,
+    stages: heapless::Vec<(u64, heapless::String<40>), 8>,
+}
+
+impl Told {
+    const fn new() -> Self {
+        Self {
+            lines: heapless::String::new(),
+            stages: heapless::Vec::new(),
+        }
+    }
+}
 
 /// What each board does in its own way, and where words go.
 trait Board: Write {
@@ -23,8 +37,8 @@ trait Board: Write {
 }
 
 /// Runs the proof.
-fn prove(board: &mut impl Board, memory: &mut Memory, lines: &mut Lines) -> fmt::Result {
-    let mut stages: heapless::Vec<(u64, heapless::String<40>), 8> = heapless::Vec::new();
+fn prove(board: &mut impl Board, memory: &mut Memory, told: &mut Told) -> fmt::Result {
+    let Told { lines, stages } = told;
     let mut stage = |name: &str| {
         let instructions = board.instructions();
         if let Ok(name) = heapless::String::try_from(name) {
@@ -34,14 +48,21 @@ fn prove(board: &mut impl Board, memory: &mut Memory, lines: &mut Lines) -> fmt:
     };
     let proof = fluoropose_firmware::run(memory, lines, &mut stage);
     board.write_str(lines)?;
-    for (instructions, name) in &stages {
-        writeln!(board, "{INFORMATION}: {name}: {instructions} instructions")?;
+    for (instructions, name) in stages.iter() {
+        tell(board, name, *instructions, " instructions\n")?;
     }
     report_memory(board)?;
     proof.map_err(|failure| {
-        let _ = writeln!(board, "{failure}");
+        let _ = words(board, &[failure.word(), "\n"]);
         fmt::Error
     })
+}
+
+/// A line that is not compared with the host's.
+fn tell(board: &mut impl Board, name: &str, value: u64, unit: &str) -> fmt::Result {
+    words(board, &[INFORMATION, ": ", name, ": "])?;
+    whole(board, value)?;
+    words(board, &[unit])
 }
 
 fn report_memory(board: &mut impl Board) -> fmt::Result {
@@ -57,7 +78,17 @@ fn report_memory(board: &mut impl Board) -> fmt::Result {
         ("stack at its highest", stack::most_used()),
     ];
     for (name, bytes) in bytes {
-        writeln!(board, "{INFORMATION}: {name}: {bytes} bytes")?;
+        tell(board, name, bytes as u64, " bytes\n")?;
     }
     Ok(())
+}
+
+/// Where a panic was, in few words: what the language makes of it takes 4 KB.
+fn tell_panic(out: &mut impl Write, info: &PanicInfo<'_>) -> fmt::Result {
+    let (file, line) = info
+        .location()
+        .map_or(("?", 0), |at| (at.file(), at.line()));
+    words(out, &["panicked at ", file, ":"])?;
+    whole(out, line.into())?;
+    words(out, &["\n"])
 }

@@ -13,7 +13,7 @@ pub(crate) fn main() -> ExitCode {
     match proof {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{failure}");
+            eprintln!("{failure:?}");
             ExitCode::FAILURE
         }
     }

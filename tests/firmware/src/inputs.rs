@@ -1,22 +1,18 @@
-//! What is in flash: a library and an outline, made by `cargo xtask test --firmware`.
+//! What is in flash: a library or an implant, and an outline, made by `cargo xtask test --firmware`.
 
-#[cfg(feature = "finder")]
+#[cfg(not(feature = "outlines"))]
 use fluoropose::Point;
 
 /// A library of the built-in femoral component, in the core's format.
-pub static LIBRARY: &[u8] = include_bytes!(concat!(
-    env!("FLUOROPOSE_FIRMWARE_INPUTS"),
-    "/femur.library"
-));
+#[cfg(not(any(feature = "finder", feature = "refine")))]
+pub(crate) static LIBRARY: &[u8] = include_bytes!(env!("FLUOROPOSE_LIBRARY"));
 
-/// The outline: pairs of little-endian `f64`, column and row of each vertex in pixels.
-pub const OUTLINE: &[u8] = include_bytes!(concat!(
-    env!("FLUOROPOSE_FIRMWARE_INPUTS"),
-    "/femur.outline"
-));
+/// The outline's file: pairs of little-endian `f64`, column and row of each vertex in pixels.
+#[cfg(not(feature = "outlines"))]
+const OUTLINE: &[u8] = include_bytes!(env!("FLUOROPOSE_OUTLINE"));
 
-/// The same as points, read when the program is built: they stay in flash.
-#[cfg(feature = "finder")]
+/// The outline, read when the program is built: its points stay in flash.
+#[cfg(not(feature = "outlines"))]
 pub(crate) static POINTS: [Point; OUTLINE.len() / 16] = {
     let mut points = [Point {
         column: 0.0,
@@ -33,7 +29,7 @@ pub(crate) static POINTS: [Point; OUTLINE.len() / 16] = {
     points
 };
 
-#[cfg(feature = "finder")]
+#[cfg(not(feature = "outlines"))]
 const fn number_at(first: usize) -> f64 {
     let mut bits = 0;
     let mut byte = 0;

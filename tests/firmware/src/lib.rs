@@ -1,19 +1,23 @@
 //! A pose from an outline in static memory: what boards and the host both run.
 //!
-//! The board and the host call [`prove`] with the same bytes; each line it writes must be the same on both.
+//! The board and the host call [`run`] with the same bytes; each line it writes must be the same on both.
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod failure;
 #[cfg(feature = "finder")]
 mod finding;
+#[cfg(any(feature = "finder", feature = "refine"))]
+mod implanted;
 mod inputs;
-mod memory;
+#[cfg(not(any(feature = "finder", feature = "refine")))]
+mod matching;
+#[cfg(feature = "outlines")]
+mod outlines;
 mod program;
-mod proof;
+#[cfg(all(feature = "refine", not(feature = "finder")))]
+mod refining;
+pub mod writing;
 
-#[cfg(feature = "finder")]
-pub use finding::{FindingFailure, FindingMemory, find_pose};
-pub use inputs::{LIBRARY, OUTLINE};
-pub use memory::{FRAME_SIDE, MAX_POINTS, MAX_VIEWS};
+pub use failure::Failure;
 pub use program::{DATA, Memory, run};
-pub use proof::{Failure, prove};

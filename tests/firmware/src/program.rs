@@ -1,57 +1,50 @@
-//! Which of two ways the program goes: to a library's pose, or, with the feature `finder`, to a chosen and judged one.
+//! Which way the program goes: to a library's pose, with the feature `finder` to a chosen and judged one, with `refine` from one pose
+//! to the next.
 
+#[cfg(not(feature = "outlines"))]
 use core::fmt::Write;
 
-#[cfg(not(feature = "finder"))]
-mod way {
-    use super::Write;
-    use crate::OUTLINE;
-    pub use crate::memory::Memory;
-    use crate::proof::Failure;
-
-    /// Bytes in flash that are no code: the library and the outline.
-    pub const DATA: [(&str, usize); 2] = [
-        ("library", crate::LIBRARY.len()),
-        ("outline", OUTLINE.len()),
-    ];
-
-    /// Runs it.
-    ///
-    /// # Errors
-    /// A [`Failure`], in words through `Display`.
-    pub fn run(
-        memory: &mut Memory,
-        out: &mut dyn Write,
-        stage: &mut dyn FnMut(&str),
-    ) -> Result<(), Failure> {
-        crate::prove(crate::LIBRARY, OUTLINE, memory, out, stage)
-    }
-}
-
+#[cfg(not(feature = "outlines"))]
+use crate::failure::Failure;
 #[cfg(feature = "finder")]
-mod way {
-    use super::Write;
-    pub use crate::finding::FindingMemory as Memory;
-    use crate::finding::{FindingFailure, IMPLANT, find_pose};
-    use crate::inputs::POINTS;
+pub(crate) use crate::finding as way;
+#[cfg(not(feature = "outlines"))]
+use crate::inputs::POINTS;
+#[cfg(not(any(feature = "finder", feature = "refine")))]
+pub(crate) use crate::matching as way;
+#[cfg(all(feature = "refine", not(feature = "finder")))]
+pub(crate) use crate::refining as way;
 
-    /// Bytes in flash that are no code: the implant and the outline.
-    pub const DATA: [(&str, usize); 2] = [
-        ("implant", IMPLANT.0.len()),
-        ("outline", size_of_val(&POINTS)),
-    ];
+pub use way::Memory;
 
-    /// Runs it.
-    ///
-    /// # Errors
-    /// A [`FindingFailure`], in words through `Display`.
-    pub fn run(
-        memory: &mut Memory,
-        out: &mut dyn Write,
-        stage: &mut dyn FnMut(&str),
-    ) -> Result<(), FindingFailure> {
-        find_pose(&POINTS, memory, out, stage)
-    }
+/// What the implant's bytes in flash are, and how many.
+#[cfg(not(any(feature = "finder", feature = "refine")))]
+const BLOB: (&str, usize) = ("library", crate::inputs::LIBRARY.len());
+#[cfg(any(feature = "finder", feature = "refine"))]
+const BLOB: (&str, usize) = ("implant", crate::implanted::IMPLANT.0.len());
+
+/// Bytes of the outline there; random ones are made.
+#[cfg(not(feature = "outlines"))]
+const OUTLINE: usize = size_of_val(&POINTS);
+#[cfg(feature = "outlines")]
+const OUTLINE: usize = 0;
+
+/// Bytes in flash that are no code: what is known of the implant, and the outline.
+pub const DATA: [(&str, usize); 2] = [BLOB, ("outline", OUTLINE)];
+
+/// Runs it.
+///
+/// # Errors
+/// A [`Failure`].
+#[cfg(not(feature = "outlines"))]
+pub fn run(
+    memory: &mut Memory,
+    out: &mut dyn Write,
+    stage: &mut dyn FnMut(&str),
+) -> Result<(), Failure> {
+    let known = way::opened(stage)?;
+    way::pose_of(&known, &POINTS, memory, out, stage)
 }
 
-pub use way::{DATA, Memory, run};
+#[cfg(feature = "outlines")]
+pub use crate::outlines::prove as run;

@@ -1,3 +1,4 @@
+import { checkHints, checkOptions, checkOutline, checkPose } from './asked.js';
 import { decodeModel } from './decode.js';
 import { filmNumbers, withImage } from './film.js';
 import { buildLibrary } from './library.js';
@@ -15,6 +16,7 @@ let ready: Promise<unknown> | undefined;
  * next time that. Rejects with a sentence about whatever is wrong with model, calibration or library.
  */
 export async function openImplant(options: ImplantOptions): Promise<Implant> {
+  checkOptions(options);
   const address = new URL('./pkg/core/fluoropose_wasm_bg.wasm', import.meta.url);
   await (ready ??= init({ module_or_path: read(address) }));
   const { model, calibration, frame, signal } = options;
@@ -47,6 +49,8 @@ export class Implant {
    * can be found, and where the outline does not fit this model from any side.
    */
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
+    checkOutline(outline);
+    checkHints(hints, 'pose');
     const around = surroundings(hints);
     try {
       const { image, film, bright } = hints;
@@ -62,11 +66,14 @@ export class Implant {
 
   /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
   preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
+    checkOutline(outline);
+    checkHints(hints, 'preview');
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
   }
 
   /** Profiles of a frame across the model's outline at a pose: what `estimateFilm` reads. */
   profiles(image: Grey, pose: Pose): Float32Array {
+    checkPose(pose, 'profiles: pose');
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
     try {

@@ -258,6 +258,7 @@ export class Actions {
     const place = currentPlace(this.#store.state);
     if (!place) return false;
     this.#store.perform(commands.chooseCandidate(place, index));
+    this.#store.say('info', texts.said.taken(index + 1));
     return true;
   }
 

@@ -2,6 +2,7 @@ import type { Directions } from '../geometry/axes';
 import type { FramePoint } from '../geometry/points';
 import type { PoseNumbers, Uncertainty } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 import { Cells } from './cells';
 import type { Distortion } from './distortion';
 
@@ -343,7 +344,18 @@ export const FOLLOWED = 'followed from';
 export function verdictOf(result: Result | null): Verdict | null {
   if (result?.kind !== 'posed') return null;
   // Who took another one knows of the first.
-  return result.chosen === 0 ? result.verdict : (result.candidates[result.chosen]?.judged?.verdict ?? null);
+  if (result.chosen === 0) return result.verdict;
+  const taken = result.candidates[result.chosen];
+  return taken?.judged?.verdict ?? (taken && result.from === 'film' ? fixed(taken) : null);
+}
+
+/** What a pose that a person fixed may leave beside the edges, px: as the core has it of those that lead following. */
+const FIXED = 2;
+
+/** Another pose than the one that following chose. */
+function fixed({ residual }: Candidate): Verdict {
+  const isBeside = residual !== null && residual > FIXED;
+  return { word: isBeside ? 'doubtful' : 'good', because: texts.follow.fixed(isBeside ? residual : null) };
 }
 
 /** Were the poses brought onto the outline, or are they the library's? */

@@ -2,9 +2,10 @@ import { strToU8, zipSync } from 'fflate';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
-import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc } from '../document/types';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
 import { doubtOf } from '../results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 
 /** Poses as `track` writes them: a folder that the commands take, with what a person did as two columns more. */
 
@@ -30,8 +31,8 @@ export function zipOf(doc: Doc, jts: Readonly<Record<ComponentName, string>>): U
     [`${component}.jts`, jts[component]],
     [`${component}.covariances.csv`, covariancesOf(doc, component)],
   ]);
-  const texts = [...files, ['track.csv', statesOf(doc)], ['film.csv', constantsOf(doc)]] as const;
-  return zipSync(Object.fromEntries(texts.map(([name, text]) => [name, strToU8(text!)]))) as Uint8Array<ArrayBuffer>;
+  const all = [...files, ['track.csv', statesOf(doc)], ['film.csv', constantsOf(doc)]] as const;
+  return zipSync(Object.fromEntries(all.map(([name, text]) => [name, strToU8(text!)]))) as Uint8Array<ArrayBuffer>;
 }
 
 const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const;
@@ -45,7 +46,8 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   const doubt = doubtOf(cell);
   if (doubt !== null) return ['doubtful', 'doubtful', doubt];
   const isGiven = isChecked || result.from === 'hand' || result.from === 'file' || result.chosen !== 0;
-  return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', result.verdict?.because ?? ''];
+  const because = result.chosen === 0 ? verdictOf(result)?.because : texts.follow.fixed(null);
+  return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', because ?? ''];
 }
 
 function numbersOf(candidate: Candidate | null): readonly (number | null)[] {

@@ -1,6 +1,7 @@
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { type Exporting, isOfBoth } from '../terms/exporting';
 import { doubtOf } from './motion';
 
 /** What somebody should know of poses before they are written: frames, by their numbers from 1. */
@@ -17,6 +18,12 @@ export interface PoseFaults {
 }
 
 export const FAULTS = ['missing', 'unrefined', 'unknown', 'doubtful', 'unchecked'] as const satisfies readonly (keyof PoseFaults)[];
+
+/** Whose faults are told together: of a joint both components', of poses each component's that the file has by themselves. */
+export function toldTogether({ kind, forms, component }: Pick<Exporting, 'kind' | 'forms' | 'component'>): readonly (readonly ComponentName[])[] {
+  if (kind !== 'poses') return [COMPONENT_NAMES];
+  return isOfBoth(forms.poses) ? COMPONENT_NAMES.map((one) => [one]) : [[component]];
+}
 
 /** Of the poses of these components: of a joint, those of both. */
 export function faultsOf(doc: Doc, components: readonly ComponentName[] = COMPONENT_NAMES): PoseFaults {

@@ -1,9 +1,10 @@
 import { useApp } from '../commands/app';
 import { unjudged } from '../document/followed';
 import type { State } from '../document/store';
+import type { Doc } from '../document/types';
 import { impossibilitiesOf } from '../results/joint_curves';
-import { FAULTS, faultsOf, inRuns } from '../results/joint_faults';
-import { COMPONENT_NAMES } from '../terms/component';
+import { FAULTS, faultsOf, inRuns, toldTogether } from '../results/joint_faults';
+import { type ComponentName, titleOf } from '../terms/component';
 import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 
@@ -11,13 +12,11 @@ import { texts } from '../texts/texts';
 export function ExportFaults({ state }: { state: State }) {
   const { joint } = useApp();
   const doc = state.history.present;
-  const { kind, forms, component } = state.ui.exporting;
+  const { kind } = state.ui.exporting;
   if (kind === 'session' || kind === 'outlines' || doc.frames.length === 0) return null;
-  const isOfOne = kind === 'poses' && forms.poses !== 'tra';
-  const components = isOfOne ? [component] : COMPONENT_NAMES;
-  const faults = faultsOf(doc, components);
-  const soFar = components.filter((one) => unjudged(doc, one) > 0);
-  const found = FAULTS.filter((fault) => faults[fault].length > 0);
+  const together = toldTogether(state.ui.exporting);
+  const soFar = together.flat().filter((one) => unjudged(doc, one) > 0);
+  const found = together.flatMap((components) => faultsFound(doc, components));
   const words = later.exporting.faults;
   return (
     <>
@@ -37,11 +36,19 @@ export function ExportFaults({ state }: { state: State }) {
         <p class="sheet-text">{words.none}</p>
       ) : (
         <ul class="export-faults">
-          {found.map((fault) => (
-            <li key={fault}>{words.fault(faults[fault].length, words[fault], inRuns(faults[fault]))}</li>
+          {found.map(({ of, fault, frames }) => (
+            <li key={`${of} ${fault}`}>
+              {together.length > 1 ? `${titleOf(of)}: ` : ''}
+              {words.fault(frames.length, words[fault], inRuns(frames))}
+            </li>
           ))}
         </ul>
       )}
     </>
   );
+}
+
+function faultsFound(doc: Doc, components: readonly ComponentName[]) {
+  const faults = faultsOf(doc, components);
+  return FAULTS.flatMap((fault) => (faults[fault].length > 0 ? [{ of: components[0]!, fault, frames: faults[fault] }] : []));
 }

@@ -8,6 +8,7 @@ export const said = {
   whichSide: 'Point at a side of the outline, or select the point before it with , and . keys, then press U.',
   sideUnknown: (side: number, count: number, reach: number, fraction: number) =>
     `Side ${side} of ${count} is unknown: what lies within ${reach} px of it is ignored. ${fraction} % of the outline is unknown.`,
+  taken: (number: number) => `Pose ${number} is taken; undo brings the other one back.`,
   sideKnown: (side: number, count: number, fraction: number) => `Side ${side} of ${count} is known. ${fraction} % of the outline is unknown.`,
   sessionSaved: 'Session saved, with every file it needs.',
   sessionSavedWithoutFiles: 'Session saved; its files are named by digest, keep them.',

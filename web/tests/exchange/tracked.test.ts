@@ -1,6 +1,6 @@
 import { strFromU8, unzipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import { addFrames, setModel, withCell } from '../../src/document/commands';
+import { addFrames, chooseCandidate, setModel, withCell } from '../../src/document/commands';
 import { bare } from '../../src/document/hand_poses';
 import { withKnownFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
@@ -61,6 +61,22 @@ describe('poses as the commands take them', () => {
     expect(state({ from: 'hand' })).toBe('fixed good');
     expect(state({ from: 'file' })).toBe('fixed good');
     expect(state({})).toBe('followed good');
+  });
+
+  it('say of a pose that a person took instead of the followed one what that leaves, not what was said of the other', () => {
+    const row = (residual: number | null, from: 'film' | 'outline') => {
+      const store = film();
+      const verdict = { word: 'doubtful', because: 'jump: it lies off the way' } as const;
+      const result = posed(UPPER, { from, candidates: [bare(POSE), { ...bare(POSE), residual }], verdict });
+      const place = { frameId: 'c', component: 'tibia' } as const;
+      store.amend((doc) => withCell(doc, place, { outline: null, result, resultOf: null }));
+      store.perform(chooseCandidate(place, 1));
+      return statesOf(store.doc).trimEnd().split('\r\n').at(-1)!.split(/,(?! )/).slice(2, 5);
+    };
+    expect(row(1.9, 'film')).toEqual(['fixed', 'good', 'a person fixed the pose']);
+    expect(row(null, 'film')).toEqual(['fixed', 'good', 'a person fixed the pose']);
+    expect(row(2.6, 'film')).toEqual(['doubtful', 'doubtful', '"a person fixed the pose, and it leaves 2.6 px beside the edges"']);
+    expect(row(0.5, 'outline')).toEqual(['fixed', 'good', 'a person fixed the pose']);
   });
 
   it('have whole covariances, and what of them is the film\u2019s where that is known', () => {

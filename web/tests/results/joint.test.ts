@@ -5,9 +5,10 @@ import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
 import { curvesShown, impossibilitiesOf, type JointNumbers, linesOf, pointsOf, rangeOf } from '../../src/results/joint_curves';
-import { faultsOf, inRuns } from '../../src/results/joint_faults';
+import { faultsOf, inRuns, toldTogether } from '../../src/results/joint_faults';
 import { jointAsked, motionNeeds, runsOf } from '../../src/results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
+import { DEFAULT_EXPORTING } from '../../src/terms/exporting';
 
 const POSE = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
 const COLUMNS = ['flexion_deg', 'field_medial_mm', 'sd_flexion_deg', 'sd_field_medial_mm'];
@@ -125,6 +126,14 @@ describe('files of a joint', () => {
     pose(store, 2, 'tibia', { verdict: { word: 'doubtful', because: 'so' } });
     expect(faultsOf(store.doc, ['tibia'])).toMatchObject({ missing: [4], doubtful: [3] });
     expect(faultsOf(store.doc, ['femur'])).toMatchObject({ missing: [], doubtful: [], unchecked: [1, 2, 3, 4, 5, 6] });
+  });
+
+  it('of a file with the poses of both components are told of both, one after the other', () => {
+    const told = (poses: 'jts' | 'tra' | 'folder') => toldTogether({ ...DEFAULT_EXPORTING, kind: 'poses', forms: { ...DEFAULT_EXPORTING.forms, poses } });
+    expect(told('jts')).toEqual([['femur']]);
+    expect(told('tra')).toEqual([['femur'], ['tibia']]);
+    expect(told('folder')).toEqual([['femur'], ['tibia']]);
+    expect(toldTogether({ ...DEFAULT_EXPORTING, kind: 'joint' })).toEqual([COMPONENT_NAMES]);
   });
 
   it('name frames in runs', () => {

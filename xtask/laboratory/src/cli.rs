@@ -111,7 +111,7 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Track(args) => return verbs::track::run(args),
         Verb::Kinematics(args) => return verbs::kinematics::run(args),
         Verb::Report(args) => return verbs::report::run(args),
-        Verb::Library(args) => verbs::library::run(args),
+        Verb::Library(args) => return verbs::library::run(args),
         Verb::Biplane(args) => verbs::biplane::run(args),
         Verb::Synthetic(args) => verbs::synthetic::run(*args),
         Verb::Identify(args) => verbs::identify::run(args),

@@ -7,7 +7,9 @@ use anyhow::Result;
 
 use super::board_rows::{self, Row};
 use super::calls;
-use super::firmware::{self, FINDER, LIBRARY, Program, SMALL_FINDER};
+use super::firmware::{
+    self, ALL_ROUND, FINDER, LIBRARY, OUTLINES, Program, REFINE, SMALL_FINDER, TIBIA,
+};
 use super::native;
 use super::report::{Report, Said};
 use crate::output::say;
@@ -21,7 +23,14 @@ pub(crate) fn run(report: &mut Report) {
     let mut rows = Vec::new();
     let pairs = [&CORTEX_M0, &RISCV32].map(|board| [(board, &LIBRARY), (board, &FINDER)]);
     let pairs = pairs.iter().flatten();
-    for (board, program) in pairs.chain(&[(&NETDUINO, &SMALL_FINDER)]) {
+    let others = [
+        (&CORTEX_M4F, &OUTLINES),
+        (&CORTEX_M4F, &REFINE),
+        (&CORTEX_M4F, &TIBIA),
+        (&CORTEX_M4F, &ALL_ROUND),
+        (&NETDUINO, &SMALL_FINDER),
+    ];
+    for (board, program) in pairs.chain(&others) {
         let name = format!("firmware: the {} on a {}", program.name, board.name);
         report.step(&name, || compare(board, program, &mut rows));
     }
@@ -39,6 +48,13 @@ struct Board {
     target: &'static str,
     emulate: fn(&Path) -> Result<String>,
 }
+
+/// The board of the firmware's own lines.
+const CORTEX_M4F: Board = Board {
+    name: "Cortex-M4F",
+    target: rust_target::CORTEX_M4F,
+    emulate: |image| firmware::on_board(&programs::qemu_arm()?, firmware::M4F, image),
+};
 
 /// Its instructions are a part of those of a Cortex-M3, which QEMU has with enough memory.
 const CORTEX_M0: Board = Board {
@@ -70,7 +86,11 @@ fn compare(board: &Board, program: &Program, rows: &mut Vec<Row>) -> Result<Said
     let toolchain = rust_target::ensure(board.target)?;
     let image = firmware::build(&toolchain, program.features)?;
     let lines = (board.emulate)(&image)?;
-    let name = format!("{} {}", board.name, program.name);
+    // Rows of the firmware's own board have its name apart alone.
+    let name = match board.name {
+        "Cortex-M4F" => program.name.to_string(),
+        other => format!("{other} {}", program.name),
+    };
     agree(board.name, &name, program, &lines, &toolchain, rows)
 }
 
@@ -83,7 +103,9 @@ fn agree(
     toolchain: &Toolchain,
     rows: &mut Vec<Row>,
 ) -> Result<Said> {
-    let count = firmware::ensure_alike(&firmware::on_host(program.features)?, lines)?;
+    let host = firmware::on_host(program.features)?;
+    let count = firmware::ensure_alike(&host, lines)?;
+    firmware::check_pose(&host, program)?;
     let information = lines.lines().filter(|line| firmware::is_information(line));
     let found: Vec<Row> = information
         .inspect(|line| say(line))

@@ -32,7 +32,7 @@ impl World {
         let end = |side: usize| {
             let random = self.random(&[2, way, part, frame, side]);
             let at = [frame.saturating_sub(FAR), (frame + FAR).min(last)][side];
-            (at != frame && random % 4 > 0).then(|| (at, pose(way, part, at)))
+            (at != frame && !random.is_multiple_of(4)).then(|| (at, pose(way, part, at)))
         };
         [end(0), end(1)]
     }
@@ -57,7 +57,7 @@ fn parts(world: &World, ways: usize, turned: bool, frames: usize) -> Vec<Sought>
     } else {
         [Femur, Tibia]
     };
-    let limbs = world.random(&[3]) % 6 > 0;
+    let limbs = !world.random(&[3]).is_multiple_of(6);
     let given = world.random(&[4]) % 8;
     let all = (0..ways).flat_map(|way| {
         roles.into_iter().enumerate().map(move |(part, role)| {

@@ -10,15 +10,15 @@ use cortex_m_semihosting::hio::HostStream;
 use cortex_m_semihosting::{debug, hio};
 use fluoropose_firmware::Memory;
 
-use super::{Board, Lines, prove, stack};
+use super::{Board, Told, prove, stack, tell_panic};
 
 #[entry]
 fn main() -> ! {
     // Made by the linker: a value that is moved into a static may pass over the stack, all of it.
     static mut MEMORY: Memory = Memory::new();
-    static mut LINES: Lines = Lines::new();
+    static mut TOLD: Told = Told::new();
     stack::paint();
-    let proof = CortexM::start().and_then(|mut board| prove(&mut board, MEMORY, LINES));
+    let proof = CortexM::start().and_then(|mut board| prove(&mut board, MEMORY, TOLD));
     debug::exit(match proof {
         Ok(()) => debug::EXIT_SUCCESS,
         Err(_) => debug::EXIT_FAILURE,
@@ -95,8 +95,8 @@ fn now() -> u64 {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    if let Ok(mut console) = hio::hstderr() {
-        let _ = writeln!(console, "{info}");
+    if let Ok(console) = hio::hstderr() {
+        let _ = tell_panic(&mut CortexM { console, last: 0 }, info);
     }
     loop {
         debug::exit(debug::EXIT_FAILURE);

@@ -10,7 +10,7 @@ use core::ptr::write_volatile;
 
 use fluoropose_firmware::Memory;
 
-use super::{Board, Lines, prove, stack};
+use super::{Board, Told, prove, stack, tell_panic};
 
 // Memory is made ready, the stack is set, and there is one processor.
 global_asm!(
@@ -46,12 +46,12 @@ const FAILED: u32 = 0x1_3333;
 #[unsafe(no_mangle)]
 extern "C" fn begin() -> ! {
     static mut MEMORY: Memory = Memory::new();
-    static mut LINES: Lines = Lines::new();
+    static mut TOLD: Told = Told::new();
     stack::paint();
-    let (memory, lines) = (&raw mut MEMORY, &raw mut LINES);
+    let (memory, told) = (&raw mut MEMORY, &raw mut TOLD);
     // SAFETY: this runs once, so nothing else leads to them.
-    let (memory, lines) = unsafe { (&mut *memory, &mut *lines) };
-    let proof = prove(&mut Virt { last: retired() }, memory, lines);
+    let (memory, told) = unsafe { (&mut *memory, &mut *told) };
+    let proof = prove(&mut Virt { last: retired() }, memory, told);
     end(if proof.is_ok() { PASSED } else { FAILED })
 }
 
@@ -104,6 +104,6 @@ fn retired() -> u64 {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    let _ = writeln!(Virt { last: 0 }, "{info}");
+    let _ = tell_panic(&mut Virt { last: 0 }, info);
     end(FAILED)
 }

@@ -1,11 +1,12 @@
 //! A film whose frames are read when they are looked at, however many there are.
 
 use std::collections::VecDeque;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use anyhow::{Context, Result, anyhow, bail};
-use fluoropose_decode::{FrameFile, GreyFrame};
+use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
@@ -28,6 +29,8 @@ pub struct Film {
     places: Vec<(usize, usize, usize)>,
     size: (usize, usize),
     digest: [u8; 32],
+    /// Of each frame's pixels.
+    prints: Vec<u64>,
     decoded: Mutex<VecDeque<(usize, Slot)>>,
     opened: Mutex<Option<(usize, Arc<FrameFile<'static>>)>>,
 }
@@ -35,8 +38,8 @@ pub struct Film {
 /// What is known of a file before its frames are looked at.
 struct Listed {
     digest: [u8; 32],
-    /// Width and height of each of its frames.
-    sizes: Vec<(u32, u32)>,
+    /// Width and height of each of its frames, and a hash of its pixels.
+    frames: Vec<((u32, u32), u64)>,
 }
 
 impl Film {
@@ -52,16 +55,17 @@ impl Film {
         let mut places = Vec::new();
         for (file, listed) in listed.iter().enumerate() {
             whole.update(listed.digest);
-            let count = listed.sizes.len();
+            let count = listed.frames.len();
             places.extend((0..count).map(|index| (file, index, count)));
         }
-        let sizes = listed.iter().flat_map(|listed| &listed.sizes);
-        let sizes: Vec<(u32, u32)> = sizes.copied().collect();
+        let frames = listed.into_iter().flat_map(|listed| listed.frames);
+        let (sizes, prints): (Vec<_>, Vec<_>) = frames.unzip();
         let mut film = Self {
             paths,
             places,
             size: (0, 0),
             digest: whole.finalize().into(),
+            prints,
             decoded: Mutex::default(),
             opened: Mutex::default(),
         };
@@ -101,6 +105,27 @@ impl Film {
     pub fn gaps(&self) -> Option<String> {
         let folder = self.paths.first()?.parent().unwrap_or(Path::new(""));
         gaps_in(&self.paths).map(|gaps| format!("{}: {gaps}", folder.display()))
+    }
+
+    /// Frames that follow each other and are the same to the last pixel, a sentence without its full stop: X-rays never are, for their noise.
+    pub fn repeats(&self) -> Option<String> {
+        let same = |&frame: &usize| self.prints[frame] == self.prints[frame + 1];
+        let repeats: Vec<usize> = (0..self.count().saturating_sub(1)).filter(same).collect();
+        if repeats.is_empty() {
+            return None;
+        }
+        let pair = |&at: &usize| format!("{} and {}", at + 1, at + 2);
+        let named: Vec<String> = repeats.iter().take(NAMED).map(pair).collect();
+        let more = match repeats.len() - named.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let folder = self.paths[0].parent().unwrap_or(Path::new(""));
+        Some(format!(
+            "{}: frames {}{more} are the same to the last pixel: was one written twice? They are taken for neighbours at even times",
+            folder.display(),
+            named.join(", ")
+        ))
     }
 
     /// Number of frames.
@@ -190,15 +215,25 @@ fn list(path: &Path) -> Result<Listed> {
     let bytes = read(path)?;
     let digest = Sha256::digest(&bytes).into();
     let file = FrameFile::open(bytes, &name_of(path))?;
-    let size = |frame: usize| -> Result<(u32, u32)> {
+    let frame = |frame: usize| -> Result<((u32, u32), u64)> {
         // Headers alone do not tell a file that was cut off.
         let decoded = file.frame(frame)?;
-        Ok((decoded.width, decoded.height))
+        Ok(((decoded.width, decoded.height), print_of(&decoded.pixels)))
     };
     Ok(Listed {
-        sizes: (0..file.count()).map(size).collect::<Result<_>>()?,
+        frames: (0..file.count()).map(frame).collect::<Result<_>>()?,
         digest,
     })
+}
+
+/// A hash of pixels: the same of the same.
+fn print_of(pixels: &Pixels) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    match pixels {
+        Pixels::U8(values) => values.hash(&mut hasher),
+        Pixels::U16(values) => values.hash(&mut hasher),
+    }
+    hasher.finish()
 }
 
 /// All of what was listed, or what is wrong with the first few of those that cannot be read, and how many they are.
@@ -256,6 +291,29 @@ mod tests {
         assert!(
             refused.contains("4.png is 15 x 8 pixels but 1.png is 16 x 8 pixels"),
             "{refused}"
+        );
+    }
+
+    #[test]
+    fn frames_that_are_the_same_are_told() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-twice-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let write = |number: usize, value: u8| {
+            let mut pixels = [7; 64];
+            pixels[9] = value;
+            write_grey(&folder.join(format!("f{number}.png")), (8, 8), &pixels).unwrap();
+        };
+        (1..=6).for_each(|number| write(number, number as u8));
+        let before = Film::read(&folder).unwrap().repeats();
+        write(4, 3);
+        write(6, 1);
+        let told = Film::read(&folder).unwrap().repeats();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(before, None);
+        let told = told.unwrap();
+        assert!(
+            told.contains("frames 3 and 4 are the same to the last pixel"),
+            "{told}"
         );
     }
 

@@ -16,6 +16,7 @@ use crate::options::Pair;
 
 mod deviation;
 mod firmware;
+mod surface;
 
 use firmware::{Bytes, Order};
 
@@ -61,11 +62,11 @@ pub struct Args {
     sheet: Option<PathBuf>,
 }
 
-/// Runs the verb.
+/// Runs the verb. Returns the code to exit with.
 ///
 /// # Errors
 /// For files that cannot be read or written and views that cannot be rendered.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let model = read_model(&args.model)?;
     let calibration = read_calibration(&args.calibration)?;
     let camera = camera_for(&calibration, args.frame)?;
@@ -94,7 +95,7 @@ pub fn run(args: Args) -> Result<()> {
         built.bytes.len() as f64 / 1e6,
         built.took.as_secs_f64()
     );
-    Ok(())
+    Ok(0)
 }
 
 /// Side of a view on the contact sheet, pixels.

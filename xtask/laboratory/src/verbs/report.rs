@@ -26,7 +26,7 @@ use sources::Sources;
     after_help = "Files in the folder: joint.csv (every number of every frame, with standard deviations and doubts), the figure (figure.svg, .pdf and .png), report.html, \
 COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number, for statistical parametric mapping), and joint.mot where the \
 frames a second are known. With --overlay a folder overlay of the frames with both outlines laid on and the curves beside, a PNG for each frame, and \
-overlay.mp4 where the program ffmpeg is installed.\n\n\
+the film of them, overlay.webm, 10 pictures a second where nobody said how many.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
 COMPONENT.covariances.csv beside them, doubts and checks track.csv: `track` writes them, and the page packs them (Poses, For commands).\n\n\
 Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \

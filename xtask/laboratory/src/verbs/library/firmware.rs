@@ -4,16 +4,15 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::finder::{Component, FinderBuffers, Goal, find};
 use fluoropose::image::mask::{MaskMut, words_needed};
-use fluoropose::implant::{ArenaNeeds, write_implant};
+use fluoropose::implant::ArenaNeeds;
 use fluoropose::library::{Library, ViewAxis, ViewGrid};
 use fluoropose::math::apply;
-use fluoropose::mesh::symmetry::symmetry_planes;
-use fluoropose::mesh::{Model, OwnedModel, coarser};
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::{Mask, RefineOptions, Silhouette};
@@ -22,7 +21,8 @@ use fluoropose_phantom::whole;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::deviation::deviation_mm;
+use super::surface::Surface;
+use crate::exit;
 use crate::finding::build_views;
 
 /// Bytes, as `256K`, `1M` or a number.
@@ -73,8 +73,8 @@ const MARGIN_DEG: f64 = 3.5;
 /// How far poses lie off the axis and off the library's distance, mm.
 const ASIDE_MM: f64 = 30.0;
 const ALONG_MM: f64 = 40.0;
-/// Surfaces that are tried, by the cubes within which vertices become one, as part of the radius; first the whole one.
-const CELLS: [f64; 6] = [0.0, 0.01, 0.02, 0.03, 0.045, 0.065];
+/// A surface is looked at closely where its triangles, at as many bytes each as the whole model's, take this much of the room.
+const NEARLY: f64 = 1.1;
 /// Pixels of the part of the frame that the table's memory is for, each side; and of the longest outline.
 const PART: usize = 224;
 const OUTLINE: usize = 900;
@@ -100,67 +100,75 @@ struct Trial {
     after_deg: f64,
 }
 
-/// Chooses, prints the table, and writes the file.
-pub(super) fn run(order: &Order<'_>, out: &Path) -> Result<()> {
+/// Chooses, prints the tables of the model and of the surface that is taken, and writes the file. Returns the code to exit with.
+pub(super) fn run(order: &Order<'_>, out: &Path) -> Result<u8> {
     let silhouettes = silhouettes(order)?;
-    for cell in CELLS {
-        let owned = surface(&order.model, cell);
-        let Some(owned) = owned else { continue };
-        let deviation = match cell > 0.0 {
-            true => deviation_mm(&order.model, &owned.as_model()),
-            false => 0.0,
-        };
-        let planes = symmetry_planes(owned.as_model().mesh());
-        let mut trials = Vec::new();
-        for (size, step) in LIBRARIES {
-            let trial = trial(
-                order,
-                &owned,
-                &planes,
-                (size, step),
-                deviation,
-                &silhouettes,
-            )?;
-            trials.push(trial);
-        }
-        let least = trials
-            .iter()
-            .map(|trial| trial.missed)
-            .min()
-            .unwrap_or_default();
-        let chosen = trials
-            .iter()
-            .position(|trial| trial.missed <= least && trial.file.len() <= order.flash);
-        println!(
-            "surface: {} triangles, {} vertices, the model's vertices at most {deviation:.2} mm off it",
-            owned.as_model().triangles().len(),
-            owned.as_model().vertices().len()
-        );
-        print(&trials, chosen, order.flash);
-        if let Some(chosen) = chosen {
-            let file = &trials[chosen].file;
-            whole::write(out, file)?;
-            println!("{}: {} bytes", out.display(), file.len());
-            return Ok(());
-        }
+    let whole = Surface::whole(&order.model)?;
+    let of_whole = trials(order, &whole, &silhouettes)?;
+    let with_whole = of_whole.iter().map(|trial| trial.missed).min();
+    let with_whole = with_whole.unwrap_or_default();
+    let number = chosen(&of_whole, order.flash);
+    print(&whole, &of_whole, number, order.flash);
+    if let Some(number) = number {
+        return write(&of_whole[number], with_whole, out);
     }
-    bail!(
-        "no library that leads to the right poses fits into {} bytes of flash with any surface of the model",
-        order.flash
-    )
+    let surface = finest_that_fits(order, &of_whole[0])?;
+    let of_surface = trials(order, &surface, &silhouettes)?;
+    let number = chosen(&of_surface, order.flash);
+    print(&surface, &of_surface, number, order.flash);
+    let number = number.context("the surface that fits was made anew and does not")?;
+    write(&of_surface[number], with_whole, out)
 }
 
-/// The model's surface, or a coarser one; `None` where that saves too little.
-fn surface(model: &Model<'_>, cell: f64) -> Option<OwnedModel> {
-    if cell > 0.0 {
-        return coarser(model, cell * model.bounds().radius);
+/// The finest coarser surface that fits with the smallest library; `smallest` is the whole model's trial of that library.
+fn finest_that_fits(order: &Order<'_>, smallest: &Trial) -> Result<Surface> {
+    let surface_bytes = smallest.file.len() - smallest.library_bytes;
+    let each = surface_bytes as f64 / order.model.triangles().len() as f64;
+    let room = order.flash.saturating_sub(smallest.library_bytes) as f64;
+    let may = |triangles: usize| each * triangles as f64 <= NEARLY * room;
+    let fits = |surface: &Surface| {
+        let file = surface.file(&library_of(order, surface, LIBRARIES[0])?)?;
+        Ok(file.len() <= order.flash)
+    };
+    Surface::finest_that_fits(&order.model, may, fits)
+}
+
+/// The smallest of the libraries that fit with which the fewest poses are missed.
+fn chosen(trials: &[Trial], flash: usize) -> Option<usize> {
+    let fits = |trial: &&Trial| trial.file.len() <= flash;
+    let least = trials.iter().filter(fits).map(|trial| trial.missed).min()?;
+    trials
+        .iter()
+        .position(|trial| fits(&trial) && trial.missed == least)
+}
+
+/// Writes what was chosen, and says so where it misses poses.
+fn write(chosen: &Trial, with_whole: usize, out: &Path) -> Result<u8> {
+    whole::write(out, &chosen.file)?;
+    println!("{}: {} bytes", out.display(), chosen.file.len());
+    let Some(told) = told(chosen.missed, with_whole) else {
+        return Ok(0);
+    };
+    println!("{told}");
+    Ok(exit::DOUBTFUL)
+}
+
+/// What is to be said of poses that are missed; `None` where there are none.
+fn told(missed: usize, with_whole: usize) -> Option<String> {
+    if missed == 0 {
+        return None;
     }
-    let vertices = model.vertices().iter().flatten().copied().collect();
-    OwnedModel::new(
-        vertices,
-        model.triangles().iter().flatten().copied().collect(),
-    )
-    .ok()
+    let remedy = match missed > with_whole {
+        true => format!(
+            "with the model's whole surface it would be {with_whole}: give more flash (--flash)"
+        ),
+        false => "no fewer with the model's whole surface: its outline looks alike from several sides there, or the views' \
+range is too narrow (--x, --y)"
+            .to_owned(),
+    };
+    Some(format!(
+        "doubtful: with this file {missed} of {POSES} poses are missed, more than {MISSED_DEG} degrees off; {remedy}"
+    ))
 }
 
 /// Poses and the silhouettes of the model itself at them, in all of the camera's frame.
@@ -235,29 +243,37 @@ fn stepped(grid: &ViewGrid, step: f64) -> ViewGrid {
     }
 }
 
-fn trial(
+/// Every library of a surface, tried.
+fn trials(
     order: &Order<'_>,
-    owned: &OwnedModel,
-    planes: &[fluoropose::mesh::symmetry::SymmetryPlane],
-    (size, step): (usize, f64),
-    deviation: f64,
+    surface: &Surface,
     silhouettes: &[(Pose, Vec<u32>)],
-) -> Result<Trial> {
+) -> Result<Vec<Trial>> {
+    let trial = |&kind| trial(order, surface, kind, silhouettes);
+    LIBRARIES.iter().map(trial).collect()
+}
+
+/// The bytes of a library of a surface.
+fn library_of(order: &Order<'_>, surface: &Surface, (size, step): (usize, f64)) -> Result<Vec<u8>> {
     let part = (size * size) as f64 / (USUAL.size() * USUAL.size()) as f64;
     let canonical = CanonicalSpec::new(size, (f64::from(USUAL.area()) * part).round() as u32)?;
     let grid = stepped(&order.grid, step);
-    let built = build_views(
-        owned.as_model(),
-        order.camera,
-        canonical,
-        grid,
-        order.distance,
-    )?;
-    let library = Library::open(&built.bytes)?;
+    let model = surface.model.as_model();
+    Ok(build_views(model, order.camera, canonical, grid, order.distance)?.bytes)
+}
+
+fn trial(
+    order: &Order<'_>,
+    surface: &Surface,
+    (size, step): (usize, f64),
+    silhouettes: &[(Pose, Vec<u32>)],
+) -> Result<Trial> {
+    let bytes = library_of(order, surface, (size, step))?;
+    let library = Library::open(&bytes)?;
     let component = Component {
         library: &library,
-        model: &owned.as_model(),
-        planes,
+        model: &surface.model.as_model(),
+        planes: &surface.planes,
     };
     let off = |goal| errors(order, &component, goal, silhouettes);
     let (before, after) = (off(Goal::Library), off(Goal::Outline));
@@ -270,11 +286,11 @@ fn trial(
         size,
         step,
         views: library.views(),
-        library_bytes: built.bytes.len(),
+        library_bytes: bytes.len(),
         missed: after.len() - found.len(),
         before_deg: median(before),
         after_deg: median(found),
-        file: write_implant(&owned.as_model(), &built.bytes, planes, deviation)?,
+        file: surface.file(&bytes)?,
     })
 }
 
@@ -315,7 +331,13 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-fn print(trials: &[Trial], chosen: Option<usize>, flash: usize) {
+fn print(surface: &Surface, trials: &[Trial], chosen: Option<usize>, flash: usize) {
+    println!(
+        "surface: {} triangles, {} vertices, the model's vertices at most {:.2} mm off it",
+        surface.model.as_model().triangles().len(),
+        surface.model.as_model().vertices().len(),
+        surface.deviation_mm
+    );
     println!(
         "frame  step deg   views  library B   file B  off before, after deg  missed of {POSES}  RAM B (outlines of {OUTLINE} px in {PART} x {PART})"
     );
@@ -331,6 +353,7 @@ fn print(trials: &[Trial], chosen: Option<usize>, flash: usize) {
             file,
         } = trial;
         let mark = match (chosen == Some(number), file.len() <= flash) {
+            (true, _) if *missed > 0 => "  chosen, though it misses poses",
             (true, _) => "  chosen",
             (false, false) => "  too large",
             (false, true) => "",
@@ -360,6 +383,37 @@ mod tests {
         assert_eq!(bytes("1M"), Some(Bytes(1_048_576)));
         assert_eq!(bytes("9000"), Some(Bytes(9000)));
         assert_eq!(bytes("a lot"), None);
+    }
+
+    fn trial_of(bytes: usize, missed: usize) -> Trial {
+        Trial {
+            size: 64,
+            step: 5.0,
+            file: vec![0; bytes],
+            views: 1,
+            library_bytes: 1,
+            missed,
+            before_deg: 1.0,
+            after_deg: 0.1,
+        }
+    }
+
+    #[test]
+    fn of_the_libraries_that_fit_the_smallest_with_the_fewest_misses_is_chosen() {
+        let trials = [(10, 3), (20, 1), (30, 1), (40, 0)].map(|(b, m)| trial_of(b, m));
+        assert_eq!(chosen(&trials, 30), Some(1), "the last does not fit");
+        assert_eq!(chosen(&trials, 40), Some(3));
+        assert_eq!(chosen(&trials, 10), Some(0));
+        assert_eq!(chosen(&trials, 9), None);
+    }
+
+    #[test]
+    fn poses_that_are_missed_are_told() {
+        assert_eq!(told(0, 0), None);
+        let flash = told(26, 0).expect("it is told");
+        assert!(flash.contains("26 of 60 poses are missed") && flash.contains("--flash"));
+        let views = told(2, 2).expect("it is told");
+        assert!(views.contains("--x, --y"), "{views}");
     }
 
     #[test]

@@ -1,10 +1,8 @@
 //! The frames of a study with what was found in them laid on, and the curves beside.
 
-use std::io::ErrorKind;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::Contour;
@@ -14,6 +12,7 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_decode::{GreyFrame, Pixels, Window};
 use fluoropose_report::JointFilm;
 use fluoropose_report::overlay::{Overlay, Shown};
+use fluoropose_report::webm::webm;
 use rayon::prelude::*;
 
 use super::out::make_folder;
@@ -27,7 +26,7 @@ const USUAL_RATE: f64 = 10.0;
 /// The share of pixels that a frame's window leaves out at either end, where its file states none.
 const CLIPPED: f64 = 0.005;
 
-/// Writes a picture of each frame, and the film of them where a program is at hand that makes one.
+/// Writes a picture of each frame, and the film of them.
 pub(super) fn write(out: &Path, study: &Study, film: &JointFilm, sources: &Sources) -> Result<()> {
     let frames = Film::read(study.frames_folder()?)?;
     ensure!(
@@ -41,7 +40,7 @@ pub(super) fn write(out: &Path, study: &Study, film: &JointFilm, sources: &Sourc
     make_folder(&folder)?;
     let (columns, rows) = frames.size();
     let overlay = Overlay::new(film, [columns, rows]);
-    let picture = |index: usize| -> Result<()> {
+    let picture = |index: usize| -> Result<_> {
         let grey = shades(&*frames.frame(index)?);
         let mut outlines = Vec::new();
         for body in [&sources.femur, &sources.tibia] {
@@ -52,11 +51,20 @@ pub(super) fn write(out: &Path, study: &Study, film: &JointFilm, sources: &Sourc
             outlines: [outlines[0].as_deref(), outlines[1].as_deref()],
         };
         let name = format!("frame_{:04}.png", index + 1);
-        write_bytes(&folder.join(name), &overlay.picture(index, &shown).png())
+        let picture = overlay.picture(index, &shown);
+        write_bytes(&folder.join(name), &picture.png())?;
+        Ok((picture.size(), picture.coded()?))
     };
-    (0..frames.count()).into_par_iter().try_for_each(picture)?;
+    let pictures = (0..frames.count()).into_par_iter().map(picture);
+    let (sizes, coded): (Vec<_>, Vec<_>) =
+        pictures.collect::<Result<Vec<_>>>()?.into_iter().unzip();
     println!("{}: {} pictures", folder.display(), frames.count());
-    join(out, film.frames_per_s.unwrap_or(USUAL_RATE))
+    let rate = film.frames_per_s.unwrap_or(USUAL_RATE);
+    let size = sizes.first().copied().unwrap_or_default();
+    let name = out.join("overlay.webm");
+    write_bytes(&name, &webm(coded, size, rate))?;
+    println!("{}: {rate} pictures a second", name.display());
+    Ok(())
 }
 
 /// Grey from black to white, by the window that the file states, or by one that leaves out little at either end.
@@ -103,28 +111,4 @@ fn outline(body: &Body, camera: &Camera, pose: Option<&Pose>) -> Result<Option<V
     follow_border(&largest.mask(), border.as_mut())?;
     let corners = border.iter().map(|point| [point.column, point.row]);
     Ok(Some(corners.collect()))
-}
-
-/// MP4 with H.264, which every player and slide program shows, is written by ffmpeg where it is installed.
-fn join(out: &Path, rate: f64) -> Result<()> {
-    let rate = format!("{rate}");
-    let (pictures, film) = (out.join("overlay/frame_%04d.png"), out.join("overlay.mp4"));
-    let mut ffmpeg = Command::new("ffmpeg");
-    ffmpeg
-        .args(["-y", "-loglevel", "error", "-framerate", &rate, "-i"])
-        .arg(&pictures)
-        .args(["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18"])
-        .arg(&film)
-        .stdin(Stdio::null());
-    match ffmpeg.status() {
-        Ok(status) if status.success() => println!("{}", film.display()),
-        Ok(status) => bail!("ffmpeg made no film of {}: {status}", pictures.display()),
-        Err(error) if error.kind() == ErrorKind::NotFound => println!(
-            "no overlay.mp4: ffmpeg is not installed; with it: ffmpeg -framerate {rate} -i {} -pix_fmt yuv420p {}",
-            pictures.display(),
-            film.display()
-        ),
-        Err(error) => return Err(error).context("ffmpeg cannot be started"),
-    }
-    Ok(())
 }

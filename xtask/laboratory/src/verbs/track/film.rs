@@ -105,8 +105,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let calibration = read_calibration(&study.calibration)?;
     let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
-    if let Some(gaps) = film.gaps() {
-        (request.listener)(Told::Remark(gaps));
+    for remark in [film.gaps(), film.repeats()].into_iter().flatten() {
+        (request.listener)(Told::Remark(remark));
     }
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;

@@ -1,0 +1,33 @@
+import { describe, expect, it } from 'vitest';
+import { checkHints, checkOptions, checkOutline } from '../../npm/src/asked';
+
+const OPTIONS = { model: new Uint8Array(), calibration: '', frame: { width: 1024, height: 1024 } };
+const POSE = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+
+describe('what the npm module is asked', () => {
+  it('is taken where it is right', () => {
+    checkOptions({ ...OPTIONS, views: { nominal: [0, 0] }, library: undefined, onProgress: () => undefined });
+    checkOutline([[1, 2], [3, 4.5]]);
+    checkHints({}, 'pose');
+    checkHints({ femur: POSE, neighbours: [POSE], unknownSides: [1], laidBy: 'tool', film: undefined }, 'pose');
+  });
+
+  it.each([
+    [undefined, /openImplant takes an object with model, calibration, frame/],
+    [{ ...OPTIONS, frame: undefined }, /frame should be \{ width, height \}/],
+    [{ ...OPTIONS, frame: { width: 1.5, height: 4 } }, /whole pixels/],
+    [{ ...OPTIONS, model: 'femur.stl' }, /model should be the bytes/],
+    [{ ...OPTIONS, calibration: new Uint8Array() }, /calibration should be the text/],
+    [{ ...OPTIONS, side: 'left' }, /openImplant has no option side; it has model/],
+    [{ ...OPTIONS, views: { step: 2 } }, /views has no option step; it has nominal, x, y, distance/],
+  ])('is told in a sentence that says what to give (%#)', (options, sentence) => {
+    expect(() => checkOptions(options)).toThrow(sentence);
+  });
+
+  it('has an outline of points and hints that there are', () => {
+    for (const outline of ['x', [1, 2, 3, 4], [['1', '2']], [[1, 2, 3]], null]) expect(() => checkOutline(outline)).toThrow(/array of points \[column, row\]/);
+    expect(() => checkHints({ other: POSE }, 'pose')).toThrow(/pose has no option other; it has unknownSides/);
+    expect(() => checkHints({ femur: { pose: POSE } }, 'pose')).toThrow(/femur should be a pose/);
+    expect(() => checkHints({ neighbours: POSE }, 'pose')).toThrow(/neighbours should be an array of poses/);
+  });
+});
