@@ -99,6 +99,7 @@ class Arguments(OnTheDemo):
             found = fp.estimate(np.zeros((256, 256), bool), self.femur, unseen)
         self.assertEqual(len(found.remarks), 1)
         frames = np.zeros((2, 256, 256), np.uint8)
+        frames[1] += 1  # No frame twice, which is told too.
         fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
         with self.assertWarnsRegex(UserWarning, "camera: .*is 12.5") as caught:
             film = fp.track(frames, self.femur, None, unseen, "left", fixed=fixed)

@@ -10,7 +10,7 @@ use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::math::Vector3;
 
 /// Concludes for every frame of a component. `side_margins` tell by how much another pose of each frame is less likely
-/// ([`super::side_margin`]), `other_depths_mm` how far the other component is from the camera, at the middle of its box, where
+/// ([`super::other_margins`]), `other_depths_mm` how far the other component is from the camera, at the middle of its box, where
 /// that is known; either may be shorter than the film. `middle` is the model's.
 #[must_use]
 pub fn conclude(
