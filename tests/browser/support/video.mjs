@@ -31,11 +31,12 @@ async function drawn({ address, count }) {
   Object.assign(canvas, { width: video.videoWidth, height: video.videoHeight });
   const pictures = [];
   for (let index = 0; index < count; index++) {
+    // What is sought is said to be there before it is painted: on a busy machine much later. A picture that stays is painted no more.
+    const painted = new Promise((go) => video.requestVideoFrameCallback(go));
     const seen = new Promise((go) => (video.onseeked = go));
     video.currentTime = ((index + 0.5) / count) * video.duration;
     await seen;
-    // What was sought may be painted a little later than it is said to be there.
-    await new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)));
+    await Promise.race([painted, new Promise((go) => setTimeout(go, 3000))]);
     canvas.getContext('2d')?.drawImage(video, 0, 0);
     pictures.push(canvas.toDataURL());
   }
