@@ -68,7 +68,7 @@ async function twoClicks(page) {
   await card(page).getByText('Now the tibia').waitFor();
   // The femur is still being found, and tools outline what the card asks for.
   await page.keyboard.press('p');
-  assert.equal(await page.getByRole('radio', { name: 'Tibia' }).getAttribute('aria-checked'), 'true');
+  await page.getByRole('radio', { name: 'Tibia', checked: true }).waitFor();
   await page.keyboard.press('o');
   await stage.click(tracing.insideOf(await trueOutline('tibia', 1)));
   await card(page).getByRole('button', { name: 'Follow the film' }).waitFor();
