@@ -7,8 +7,8 @@
 //! [`choose_sides`] tells over the film which side is the right one, and [`runs_to_go_over`] where to go over to it; the same
 //! for poses that are no mirror image ([`elsewhere`]). Jumps are crossed from both sides (`Crossing`, feature `alloc`), before sides are chosen
 //! and at the end. Frames that then
-//! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
-//! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
+//! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`). `Settling` has the order of all
+//! that. [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
 //! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for; before it, [`FilmReading`] reads
 //! what the constants of the film are estimated from.
@@ -49,6 +49,8 @@ mod search_plan;
 #[cfg(feature = "alloc")]
 mod second_look;
 mod settle;
+#[cfg(feature = "alloc")]
+mod settling;
 mod side_margin;
 mod side_samples;
 mod sides;
@@ -60,7 +62,7 @@ mod way;
 
 pub use cell::{Anchor, Cell};
 #[cfg(feature = "alloc")]
-pub use conclude::{conclude, trusted_depths};
+pub use conclude::{KnownBeside, conclude, trusted_depths};
 pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
 #[cfg(feature = "alloc")]
@@ -92,6 +94,8 @@ pub use search_plan::{
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};
 pub use settle::settled;
+#[cfg(feature = "alloc")]
+pub use settling::{Settling, SettlingStep};
 pub use side_margin::SideMargin;
 pub use side_samples::{SideSample, frames_for_sides, runs_to_go_over};
 pub use sides::{Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};

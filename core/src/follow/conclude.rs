@@ -4,24 +4,39 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::conclusion::Conclusion;
+use super::conclusion::{Conclusion, fill_gaps};
+use super::known_femur::KnownFemur;
 use super::side_margin::SideMargin;
-use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
+use super::trust::{Distrust, FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::math::Vector3;
+use crate::mesh::anatomy::KneeComponent;
+
+/// What is known besides a component's own frames when its film is judged.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct KnownBeside<'b> {
+    /// How far the other component is from the camera, at the middle of its box, where that is known ([`trusted_depths`]), mm; may be shorter
+    /// than the film.
+    pub other_depths_mm: &'b [Option<f64>],
+    /// Of a tibia its femur.
+    pub femur: Option<&'b KnownFemur>,
+    /// The component that the model has the shape of, where that is the other one.
+    pub other_shape: Option<KneeComponent>,
+    /// Gaps of at most so many frames between frames to be trusted are filled.
+    pub longest_gap: usize,
+}
 
 /// Concludes for every frame of a component. `side_margins` tell by how much another pose of each frame is less likely
-/// ([`super::other_margins`]), `other_depths_mm` how far the other component is from the camera, at the middle of its box, where
-/// that is known; either may be shorter than the film. `middle` is the model's.
+/// ([`super::other_margins`]), and may be shorter than the film. `middle` is the model's.
 #[must_use]
 pub fn conclude(
     cells: &[Cell],
     side_margins: &[Option<SideMargin>],
-    other_depths_mm: &[Option<f64>],
+    beside: &KnownBeside<'_>,
     middle: &Vector3,
 ) -> Vec<Conclusion> {
     let evidence = cells.iter().enumerate().map(|(frame, cell)| {
         let margin = side_margins.get(frame).copied().flatten();
-        let depth = other_depths_mm.get(frame).copied().flatten();
+        let depth = beside.other_depths_mm.get(frame).copied().flatten();
         FrameEvidence::of(cell, margin, depth)
     });
     let evidence: Vec<FrameEvidence> = evidence.collect();
@@ -30,7 +45,17 @@ pub fn conclude(
     let limits = TrustLimits::USUAL;
     judge_film(&evidence, &limits, middle, &mut sorted, &mut trusts);
     let one = |(cell, trust)| Conclusion::of(cell, trust);
-    cells.iter().zip(&trusts).map(one).collect()
+    let mut film: Vec<Conclusion> = cells.iter().zip(&trusts).map(one).collect();
+    fill_gaps(&mut film, beside.longest_gap, middle);
+    if let Some(shape) = beside.other_shape {
+        // Right or not, they are not those of the component whose name they bear.
+        film.iter_mut()
+            .for_each(|one| one.distrust(Distrust::Shape(shape)));
+    }
+    if let Some(femur) = beside.femur {
+        femur.distrust_impossible(&mut film);
+    }
+    film
 }
 
 /// How far a component is from the camera in each frame, at the `middle` of its box, mm; only where its pose is to be trusted by
@@ -41,7 +66,7 @@ pub fn trusted_depths(
     side_margins: &[Option<SideMargin>],
     middle: &Vector3,
 ) -> Vec<Option<f64>> {
-    let alone = conclude(cells, side_margins, &[], middle);
+    let alone = conclude(cells, side_margins, &KnownBeside::default(), middle);
     let depth = |one: &Conclusion| {
         let pose = one.pose.filter(|_| one.is_trusted())?;
         Some(-pose.transform(middle)[2])

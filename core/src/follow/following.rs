@@ -1,6 +1,5 @@
 //! A component followed by a caller that gives frames one by one, when they are asked for.
 
-mod other_poses;
 mod task;
 
 use alloc::boxed::Box;
@@ -12,16 +11,16 @@ use core::ops::Range;
 use task::{Span, Task, Walk};
 
 use super::cell::{Anchor, Cell};
-use super::conclude::{conclude, trusted_depths};
+use super::conclude::{KnownBeside, conclude, trusted_depths};
 use super::conclusion::Conclusion;
-use super::crossing::{Crossing, frames_to_cross_from};
-use super::false_minimum::ROUNDS;
-use super::frame_pose::FramePose;
+use super::elsewhere::elsewhere;
+use super::frame_pose::{FramePose, mirrored_pose};
 use super::known_femur::KnownFemur;
 use super::search_order::{frames_to_search, run_to_search};
-use super::second_look::{SecondLook, second_looks};
+use super::second_look::SecondLook;
+use super::settling::{Settling, SettlingStep};
 use super::side_samples::SideSample;
-use super::sides::SideStep;
+use super::sides::Rival;
 use super::subject::Subject;
 use crate::math::Vector3;
 use crate::pose::Pose;
@@ -33,21 +32,8 @@ enum Phase {
     Way,
     /// Runs of frames in which it was not found are searched from this frame on.
     Search(usize),
-    /// Jumps of the way are crossed: sides are chosen by what its frames say, and of a way that lies in small minima they say little.
-    CrossWay,
-    /// Waits for [`Following::choose_sides`].
-    Followed,
-    Sides,
-    /// To the other side, where that is the right one.
-    GoOver,
-    /// Frames are seen from elsewhere.
-    Elsewhere,
-    /// To what was seen there, where that is the right one.
-    GoElsewhere,
-    /// Jumps are crossed.
-    Cross,
-    /// Frames that stand out are looked at once more.
-    Again,
+    /// It is brought to its right pose.
+    Settle,
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
@@ -67,47 +53,37 @@ pub struct Following {
     phase: Phase,
     /// The caller looks for the component in whole frames where nothing leads to it.
     searches: bool,
+    settling: Settling,
+    /// A step that waits for the caller's word.
+    waiting: Option<SettlingStep>,
+    /// [`Self::see_sides`] was called.
+    may_see: bool,
     /// [`Self::choose_sides`] was called.
     may_choose: bool,
     femur: Option<KnownFemur>,
-    samples: Vec<SideSample>,
-    /// Frames seen from elsewhere.
-    elsewhere: Vec<SideSample>,
-    /// The frames that went over to what was seen elsewhere, as they were before.
-    before: Vec<(Range<usize>, Vec<Cell>)>,
-    /// From where jumps are still to be crossed, and whether forward.
-    to_cross: VecDeque<(usize, bool)>,
-    /// So often frames may still go over to what was seen elsewhere.
-    rounds: usize,
     /// Other sides of frames that somebody wants to compare.
     rivals: Vec<SideSample>,
-    steps: Vec<SideStep>,
-    /// What sides were chosen by, each time, and what was chosen.
-    choices: Vec<(Vec<SideSample>, Vec<SideStep>)>,
 }
 
 impl Following {
     /// Over the frames `range` of a film of `frames`; `middle` is the middle of the model's box.
     #[must_use]
     pub fn new(middle: Vector3, frames: usize, range: Range<usize>) -> Self {
+        let range = range.start..range.end.min(frames);
         Self {
             middle,
-            range: range.start..range.end.min(frames),
+            settling: Settling::new(middle, range.clone()),
+            range,
             cells: vec![Cell::default(); frames],
             anchors: Vec::new(),
             tasks: VecDeque::new(),
             phase: Phase::Way,
             searches: false,
+            waiting: None,
+            may_see: false,
             may_choose: false,
             femur: None,
-            samples: Vec::new(),
-            elsewhere: Vec::new(),
-            before: Vec::new(),
-            to_cross: VecDeque::new(),
-            rounds: ROUNDS,
             rivals: Vec::new(),
-            steps: Vec::new(),
-            choices: Vec::new(),
         }
     }
 
@@ -217,7 +193,7 @@ impl Following {
     /// Begins to choose the sides of the mirror, for a tibia with its femur, where that is known.
     pub fn choose_sides(&mut self, femur: Option<KnownFemur>) {
         self.see_sides();
-        if self.phase == Phase::Sides {
+        if self.may_see {
             self.femur = femur;
             self.may_choose = true;
         }
@@ -225,10 +201,17 @@ impl Following {
 
     /// Begins to see frames from both sides of the mirror, which needs no femur: [`Self::choose_sides`] goes on from there.
     pub fn see_sides(&mut self) {
-        if self.phase == Phase::Followed {
-            self.phase = Phase::Sides;
-            self.see_other_sides();
+        self.may_see |= self.waiting.is_some();
+    }
+
+    /// Whether the same sides are chosen with a femur of which more is known by now: what was done then stands, and its margins become
+    /// those of that femur. Where they are not, nothing changes: the work is to be done again from before [`Self::choose_sides`].
+    pub fn stands_with(&mut self, femur: Option<KnownFemur>) -> bool {
+        let stands = self.settling.stands_with(femur.as_ref());
+        if stands {
+            self.femur = femur;
         }
+        stands
     }
 
     /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
@@ -264,18 +247,20 @@ impl Following {
     /// How far the component is from the camera where it is to be trusted; see [`trusted_depths`].
     #[must_use]
     pub fn depths(&self) -> Vec<Option<f64>> {
-        trusted_depths(&self.cells, &self.side_margins(), &self.middle)
+        let margins = self.settling.margins(&self.cells);
+        trusted_depths(&self.cells, &margins, &self.middle)
     }
 
     /// The answer, with the other component's [`Self::depths`], where there is one.
     #[must_use]
     pub fn conclude(&self, other_depths_mm: &[Option<f64>]) -> Vec<Conclusion> {
-        let margins = self.side_margins();
-        let mut film = conclude(&self.cells, &margins, other_depths_mm, &self.middle);
-        if let Some(femur) = &self.femur {
-            femur.distrust_impossible(&mut film);
-        }
-        film
+        let margins = self.settling.margins(&self.cells);
+        let beside = KnownBeside {
+            other_depths_mm,
+            femur: self.femur.as_ref(),
+            ..KnownBeside::default()
+        };
+        conclude(&self.cells, &margins, &beside, &self.middle)
     }
 
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
@@ -287,67 +272,95 @@ impl Following {
             }
             Phase::Search(from) => match self.begin_search(from) {
                 Some(run) => self.phase = Phase::Search(run.end),
-                None => self.begin_to_cross(Phase::CrossWay),
+                None => self.phase = Phase::Settle,
             },
-            Phase::CrossWay => match self.cross_next() {
-                true => {}
-                false => self.phase = Phase::Followed,
-            },
-            Phase::Sides if !self.may_choose => return None,
-            Phase::Sides => {
-                self.begin_other_sides();
-                self.phase = Phase::GoOver;
-            }
-            Phase::GoOver => {
-                self.see_elsewhere();
-                self.phase = Phase::Elsewhere;
-            }
-            Phase::Elsewhere => self.leave_false_minima(),
-            Phase::GoElsewhere => match self.keep_what_leaves_less() {
-                true => {
-                    self.see_other_sides();
-                    self.phase = Phase::Sides;
+            Phase::Settle => {
+                let waiting = self.waiting.take();
+                match waiting.or_else(|| self.settling.next(&mut self.cells)) {
+                    Some(step) if self.waits_for(&step) => {
+                        self.waiting = Some(step);
+                        return None;
+                    }
+                    Some(step) => self.begin(step),
+                    None => self.phase = Phase::Over,
                 }
-                false => self.begin_to_cross(Phase::Cross),
-            },
-            Phase::Cross => match self.cross_next() {
-                true => {}
-                false => self.look_again_at_what_stands_out(),
-            },
-            Phase::Again => self.phase = Phase::Over,
-            Phase::Followed | Phase::Over | Phase::Compare => return None,
+            }
+            Phase::Over | Phase::Compare => return None,
         }
         Some(())
     }
 
-    fn leave_false_minima(&mut self) {
-        match self.begin_elsewhere() {
-            true => self.phase = Phase::GoElsewhere,
-            false => self.begin_to_cross(Phase::Cross),
+    /// Whether a step waits for what the caller says first. Of a component without two sides the first one is to choose.
+    fn waits_for(&self, step: &SettlingStep) -> bool {
+        match step {
+            SettlingStep::See(..) => !self.may_see,
+            SettlingStep::Choose => !self.may_choose,
+            _ => false,
         }
     }
 
-    fn begin_to_cross(&mut self, phase: Phase) {
-        self.to_cross = frames_to_cross_from(&self.cells, &self.middle).into();
-        self.phase = phase;
+    fn begin(&mut self, step: SettlingStep) {
+        match step {
+            SettlingStep::Cross(crossing) => self.tasks.push_back(Task::Crossing(crossing)),
+            SettlingStep::See(Rival::Mirrored, frames) => {
+                self.tasks.extend(frames.into_iter().map(Task::BothSides));
+            }
+            SettlingStep::See(Rival::Elsewhere, frames) => {
+                self.tasks.extend(frames.into_iter().map(Task::Elsewhere));
+            }
+            SettlingStep::Choose => self.settling.choose(self.femur.as_ref()),
+            SettlingStep::GoOver(runs) => {
+                for (run, anchor) in runs {
+                    self.go_through(&anchor, &run);
+                }
+            }
+            SettlingStep::LookAgain(looks) => {
+                let looks = looks.into_iter().map(Box::new);
+                self.tasks.extend(looks.map(Task::Again));
+            }
+        }
     }
 
-    /// Crosses the next jump; whether one was left.
-    fn cross_next(&mut self) -> bool {
-        let Some((from, forward)) = self.to_cross.pop_front() else {
-            return false;
+    fn see_both_sides(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        frame: usize,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let &own = self.cells[frame].found()?;
+        let sample = SideSample {
+            frame,
+            own,
+            rival: Rival::Mirrored,
+            other: mirrored_pose(subject, image, &own, memory),
+            fixed: self.cells[frame].fixed,
         };
-        let crossing = Crossing::over(&self.cells, from, forward, &self.middle);
-        self.tasks
-            .extend(crossing.map(Box::new).map(Task::Crossing));
-        true
+        match self.phase {
+            Phase::Compare => self.rivals.push(sample),
+            _ => self.settling.saw(sample),
+        }
+        Some(own)
     }
 
-    fn look_again_at_what_stands_out(&mut self) {
-        let looks = second_looks(&self.cells, &self.middle).into_iter();
-        let looks = looks.filter(|look| self.range.contains(&look.frame));
-        self.tasks.extend(looks.map(Box::new).map(Task::Again));
-        self.phase = Phase::Again;
+    fn see_from_elsewhere(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        frame: usize,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let &own = self.cells[frame].found()?;
+        let mirrored = self.settling.both_sides_of(frame)?.mirrored_now(&own);
+        let other = elsewhere(subject, image, (&own, mirrored.as_ref()), memory);
+        self.settling.saw(SideSample {
+            frame,
+            own,
+            rival: Rival::Elsewhere,
+            other,
+            fixed: false,
+        });
+        Some(own)
     }
 
     fn begin_ways(&mut self) {

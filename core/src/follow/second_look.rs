@@ -6,7 +6,7 @@
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::conclude::conclude;
+use super::conclude::{KnownBeside, conclude};
 use super::frame_pose::{FramePose, From, refined_within};
 use super::look::beside;
 use super::motion::between;
@@ -44,7 +44,7 @@ pub struct SecondLook {
 /// The frames of a film that stand out; `middle` is the model's. What a person gave is as it is.
 #[must_use]
 pub fn second_looks(cells: &[Cell], middle: &Vector3) -> Vec<SecondLook> {
-    let judged = conclude(cells, &[], &[], middle);
+    let judged = conclude(cells, &[], &KnownBeside::default(), middle);
     let found: Vec<Option<(FramePose, bool)>> = cells
         .iter()
         .zip(&judged)

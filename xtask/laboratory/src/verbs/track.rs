@@ -5,7 +5,6 @@ mod constants;
 mod film;
 mod follow;
 mod journal;
-mod judge;
 mod metal;
 mod part;
 mod partner;

@@ -4,7 +4,9 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, Conclusion, KnownFemur, State, trusted_depths};
+use fluoropose::follow::{
+    Anchor, Cell, Conclusion, KnownBeside, KnownFemur, State, conclude, trusted_depths,
+};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
 use fluoropose::refine::Polarity;
@@ -16,7 +18,6 @@ use super::anchors::{again, fill};
 use super::constants::learn_film;
 use super::follow::follow;
 use super::journal::Journal;
-use super::judge::judge;
 use super::metal::begun;
 use super::part::{Part, read_models};
 use super::request::{Request, Told};
@@ -233,11 +234,15 @@ fn finish(
         let depths = other.map_or(Vec::new(), |other| {
             trusted_depths(&films[other], &margins[other], &parts[other].middle())
         });
-        let (cells, interpolate) = (&films[number], run.request.interpolate);
-        let mut judged = judge(part, cells, &margins[number], &depths, interpolate);
-        if let Some(femur) = femur_of(part, parts, films) {
-            femur.distrust_impossible(&mut judged);
-        }
+        let (cells, middle) = (&films[number], part.middle());
+        let femur = femur_of(part, parts, films);
+        let beside = KnownBeside {
+            other_depths_mm: &depths,
+            femur: femur.as_ref(),
+            other_shape: part.other_shape(),
+            longest_gap: run.request.interpolate,
+        };
+        let judged = conclude(cells, &margins[number], &beside, &middle);
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))
@@ -245,7 +250,6 @@ fn finish(
         write_poses(&out.join(format!("{}.jts", part.name())), &poses)?;
         let covariances = out.join(format!("{}.covariances.csv", part.name()));
         write_text(&covariances, &covariance_table(cells))?;
-        let middle = part.middle();
         let rows = cells.iter().zip(&judged).enumerate();
         let row = |(frame, (cell, judged))| Row::of(frame, cell, judged, &middle);
         tracked.push(Tracked {

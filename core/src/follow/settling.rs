@@ -1,0 +1,354 @@
+//! The order in which a followed component is brought to its right pose over the film, for whoever looks at the frames.
+
+use alloc::boxed::Box;
+use alloc::collections::VecDeque;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::mem::take;
+use core::ops::Range;
+
+use super::cell::{Anchor, Cell};
+use super::crossing::{Crossing, frames_to_cross_from};
+use super::false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
+use super::known_femur::KnownFemur;
+use super::other_margins::other_margins;
+use super::second_look::{SecondLook, second_looks};
+use super::side_margin::SideMargin;
+use super::side_samples::{SideSample, frames_for_sides, runs_to_go_over};
+use super::sides::{Rival, SideEvidence, SideStep, choose_sides};
+use crate::math::Vector3;
+
+/// What is to be done next.
+#[derive(Clone, Debug)]
+pub enum SettlingStep {
+    /// This jump is to be crossed, and what came of it written.
+    Cross(Box<Crossing>),
+    /// These frames are to be seen from the other side of the mirror, or from elsewhere: [`Settling::saw`] takes what they say.
+    See(Rival, Vec<usize>),
+    /// [`Settling::choose`] is to be called, for a tibia with its femur, where that is known.
+    Choose,
+    /// These runs of frames are to be followed from their frames, and were cleared for that.
+    GoOver(Vec<(Range<usize>, Anchor)>),
+    /// These frames are to be looked at once more, and [improved](Cell::improve) where that leads to something better.
+    LookAgain(Vec<SecondLook>),
+}
+
+/// What comes next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// Jumps of the way are crossed: sides are chosen by what its frames say, and of a way that lies in small minima they say little.
+    CrossWay,
+    Sides,
+    Choose,
+    /// To the other side, where that is the right one.
+    GoOver,
+    Elsewhere,
+    /// To what was seen there, where that is the right one.
+    GoElsewhere,
+    /// It stays there where that leaves less.
+    Keep,
+    Cross,
+    Again,
+    Over,
+}
+
+/// Brings a component that was followed to its right side of the mirror and out of false minima. [`Self::next`] says what is to be
+/// done; whoever calls does it on the frames, in threads or one by one, and calls again.
+#[derive(Clone, Debug)]
+pub struct Settling {
+    middle: Vector3,
+    range: Range<usize>,
+    phase: Phase,
+    /// So often frames may still go over to what was seen elsewhere.
+    rounds: usize,
+    /// From where jumps are still to be crossed, and whether forward; none where that is not told yet.
+    to_cross: Option<VecDeque<(usize, bool)>>,
+    samples: Vec<SideSample>,
+    steps: Vec<SideStep>,
+    /// What sides were chosen by, each time, and what was chosen.
+    choices: Vec<(Vec<SideSample>, Vec<SideStep>)>,
+    /// Frames seen from elsewhere.
+    elsewhere: Vec<SideSample>,
+    /// The frames that went over to what was seen elsewhere, as they were before.
+    before: Vec<(Range<usize>, Vec<Cell>)>,
+}
+
+impl Settling {
+    /// Of frames `range` of a film; `middle` is the middle of the model's box.
+    #[must_use]
+    pub fn new(middle: Vector3, range: Range<usize>) -> Self {
+        Self {
+            middle,
+            range,
+            phase: Phase::CrossWay,
+            rounds: ROUNDS,
+            to_cross: None,
+            samples: Vec::new(),
+            steps: Vec::new(),
+            choices: Vec::new(),
+            elsewhere: Vec::new(),
+            before: Vec::new(),
+        }
+    }
+
+    /// What is to be done next with the film's `cells`; `None` where all is done.
+    pub fn next(&mut self, cells: &mut [Cell]) -> Option<SettlingStep> {
+        loop {
+            let (step, phase) = match self.phase {
+                Phase::CrossWay => self.cross(cells, Phase::Sides),
+                Phase::Sides => (self.to_see(Rival::Mirrored, cells), Phase::Choose),
+                Phase::Choose => (Some(SettlingStep::Choose), Phase::GoOver),
+                Phase::GoOver => {
+                    let runs = runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
+                    (self.to_go_over(runs, cells), Phase::Elsewhere)
+                }
+                Phase::Elsewhere => (self.to_see(Rival::Elsewhere, cells), Phase::GoElsewhere),
+                Phase::GoElsewhere => self.go_elsewhere(cells),
+                Phase::Keep => match self.keep_what_leaves_less(cells) {
+                    true => (None, Phase::Sides),
+                    false => (None, Phase::Cross),
+                },
+                Phase::Cross => self.cross(cells, Phase::Again),
+                Phase::Again => (self.to_look_again(cells), Phase::Over),
+                Phase::Over => return None,
+            };
+            self.phase = phase;
+            if step.is_some() {
+                return step;
+            }
+        }
+    }
+
+    /// Takes what frames say of their own pose and of another.
+    pub fn saw(&mut self, sample: SideSample) {
+        match sample.rival {
+            Rival::Mirrored => self.samples.push(sample),
+            Rival::Elsewhere => self.elsewhere.push(sample),
+        }
+    }
+
+    /// What a frame says of both sides of the mirror, where it was seen from both.
+    #[must_use]
+    pub fn both_sides_of(&self, frame: usize) -> Option<&SideSample> {
+        self.samples.iter().find(|sample| sample.frame == frame)
+    }
+
+    /// Chooses the sides, for a tibia with its femur, where that is known.
+    pub fn choose(&mut self, femur: Option<&KnownFemur>) {
+        self.samples.sort_by_key(|sample| sample.frame);
+        self.steps = chosen(&self.samples, femur);
+        self.choices
+            .push((self.samples.clone(), self.steps.clone()));
+    }
+
+    /// What was chosen last, with what it was chosen by.
+    pub fn choice(&self) -> impl Iterator<Item = (&SideSample, &SideStep)> {
+        self.samples.iter().zip(&self.steps)
+    }
+
+    /// Whether the same sides are chosen with a femur of which more is known by now: what was done then stands, and its margins become
+    /// those of that femur. Where they are not, nothing changes.
+    pub fn stands_with(&mut self, femur: Option<&KnownFemur>) -> bool {
+        let mut last = None;
+        for (samples, steps) in &self.choices {
+            let again = chosen(samples, femur);
+            let same = |(one, other): (&SideStep, &SideStep)| one.side == other.side;
+            if !again.iter().zip(steps).all(same) {
+                return false;
+            }
+            last = Some(again);
+        }
+        self.steps = last.unwrap_or_default();
+        true
+    }
+
+    /// By how much another pose of each frame is less likely; `None` where there is no other.
+    #[must_use]
+    pub fn margins(&self, cells: &[Cell]) -> Vec<Option<SideMargin>> {
+        other_margins(&self.samples, &self.steps, &self.elsewhere, cells)
+    }
+
+    /// The next jump, and `after` the last one.
+    fn cross(&mut self, cells: &[Cell], after: Phase) -> (Option<SettlingStep>, Phase) {
+        let middle = self.middle;
+        let to_cross = self
+            .to_cross
+            .get_or_insert_with(|| frames_to_cross_from(cells, &middle).into());
+        while let Some((from, forward)) = to_cross.pop_front() {
+            if let Some(crossing) = Crossing::over(cells, from, forward, &middle) {
+                return (Some(SettlingStep::Cross(Box::new(crossing))), self.phase);
+            }
+        }
+        self.to_cross = None;
+        (None, after)
+    }
+
+    /// The frames to be seen from the other side, or from elsewhere: but for those that were, whose pose is as it was then.
+    fn to_see(&mut self, rival: Rival, cells: &[Cell]) -> Option<SettlingStep> {
+        let wanted: Vec<usize> = match rival {
+            Rival::Mirrored => frames_for_sides(cells)
+                .filter(|frame| self.range.contains(frame))
+                .collect(),
+            Rival::Elsewhere => {
+                let frames = self.samples.iter().map(|sample| sample.frame);
+                frames.filter(|&frame| !cells[frame].fixed).collect()
+            }
+        };
+        let samples = match rival {
+            Rival::Mirrored => &mut self.samples,
+            Rival::Elsewhere => &mut self.elsewhere,
+        };
+        samples.retain(|sample| cells[sample.frame].found() == Some(&sample.own));
+        let is_new = |frame: &usize| !samples.iter().any(|one| one.frame == *frame);
+        let frames: Vec<usize> = wanted.into_iter().filter(is_new).collect();
+        (!frames.is_empty()).then_some(SettlingStep::See(rival, frames))
+    }
+
+    fn to_go_over(
+        &self,
+        runs: Vec<(Range<usize>, Anchor)>,
+        cells: &mut [Cell],
+    ) -> Option<SettlingStep> {
+        let within = |(run, anchor): (Range<usize>, Anchor)| (self.within(&run), anchor);
+        let runs: Vec<(Range<usize>, Anchor)> = runs.into_iter().map(within).collect();
+        for (run, _) in &runs {
+            // What is there is another pose's; what a person gave stays.
+            for cell in cells[run.clone()].iter_mut().filter(|cell| !cell.fixed) {
+                *cell = Cell::default();
+            }
+        }
+        (!runs.is_empty()).then_some(SettlingStep::GoOver(runs))
+    }
+
+    fn go_elsewhere(&mut self, cells: &mut [Cell]) -> (Option<SettlingStep>, Phase) {
+        self.elsewhere.sort_by_key(|sample| sample.frame);
+        if self.rounds == 0 {
+            return (None, Phase::Cross);
+        }
+        self.rounds -= 1;
+        let runs = runs_elsewhere(&self.elsewhere, cells.len());
+        for (run, _) in &runs {
+            let run = self.within(run);
+            let kept = cells[run.clone()].to_vec();
+            self.before.push((run, kept));
+        }
+        match self.to_go_over(runs, cells) {
+            None => (None, Phase::Cross),
+            step => (step, Phase::Keep),
+        }
+    }
+
+    /// The ways to elsewhere stay where they leave less; whether any does.
+    fn keep_what_leaves_less(&mut self, cells: &mut [Cell]) -> bool {
+        let mut any = false;
+        for (run, before) in take(&mut self.before) {
+            let cells = &mut cells[run];
+            match leaves_less(cells, &before) {
+                true => any = true,
+                false => cells.copy_from_slice(&before),
+            }
+        }
+        any
+    }
+
+    fn to_look_again(&self, cells: &[Cell]) -> Option<SettlingStep> {
+        let looks = second_looks(cells, &self.middle).into_iter();
+        let looks = looks.filter(|look| self.range.contains(&look.frame));
+        let looks: Vec<SecondLook> = looks.collect();
+        (!looks.is_empty()).then_some(SettlingStep::LookAgain(looks))
+    }
+
+    fn within(&self, run: &Range<usize>) -> Range<usize> {
+        run.start.max(self.range.start)..run.end.min(self.range.end)
+    }
+}
+
+/// The side of each frame that was seen from both, with the femur where that is known.
+fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
+    let evidence = samples
+        .iter()
+        .map(|sample| sample.evidence(|pose| femur?.tilt_deg(sample.frame, pose)));
+    let evidence: Vec<SideEvidence> = evidence.collect();
+    let mut steps = vec![SideStep::default(); evidence.len()];
+    choose_sides(&evidence, &mut steps);
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::{looked, turned};
+    use crate::pose::geodesic_deg;
+
+    const FRAMES: usize = 9;
+
+    fn film() -> Vec<Cell> {
+        let seen = |frame: usize| Cell::on_the_way(looked(Ok(turned(frame as f64, 0.2))));
+        (0..FRAMES).map(seen).collect()
+    }
+
+    /// The words of the steps, with a film in which every other pose leaves so many times as much.
+    fn order(times: f64) -> Vec<&'static str> {
+        let mut cells = film();
+        let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+        let mut words = Vec::new();
+        while let Some(step) = settling.next(&mut cells) {
+            words.push(match step {
+                SettlingStep::Cross(_) => "cross",
+                SettlingStep::See(rival, frames) => {
+                    for frame in frames {
+                        let own = *cells[frame].found().expect("it was seen");
+                        settling.saw(SideSample {
+                            frame,
+                            own,
+                            rival,
+                            other: Some(turned(frame as f64 + 20.0, times * own.misfit_px)),
+                            fixed: false,
+                        });
+                    }
+                    match rival {
+                        Rival::Mirrored => "sides",
+                        Rival::Elsewhere => "elsewhere",
+                    }
+                }
+                SettlingStep::Choose => {
+                    settling.choose(None);
+                    "choose"
+                }
+                SettlingStep::GoOver(runs) => {
+                    for (run, anchor) in runs {
+                        let there = turned(anchor.frame as f64 + 20.0, 0.0).pose;
+                        let off = geodesic_deg(&there.rotation, &anchor.found.pose.rotation);
+                        assert!(off < 1e-6, "{off}");
+                        for frame in run {
+                            assert!(cells[frame].found().is_none(), "it is cleared");
+                            let found = turned(frame as f64 + 20.0, times * 0.2);
+                            cells[frame] = Cell::on_the_way(looked(Ok(found)));
+                        }
+                    }
+                    "go over"
+                }
+                SettlingStep::LookAgain(_) => "again",
+            });
+            assert!(words.len() < 40, "it ends: {words:?}");
+        }
+        words
+    }
+
+    #[test]
+    fn what_is_right_is_seen_from_both_sides_and_from_elsewhere_once() {
+        assert_eq!(order(5.0), ["sides", "choose", "elsewhere"]);
+    }
+
+    #[test]
+    fn what_leaves_less_is_gone_over_to_and_seen_anew() {
+        let words = order(0.2);
+        assert_eq!(
+            words[..4],
+            ["sides", "choose", "go over", "elsewhere"],
+            "{words:?}"
+        );
+        let rounds = words.iter().filter(|&&word| word == "sides").count();
+        assert!(rounds <= 1 + ROUNDS, "{words:?}");
+    }
+}
