@@ -67,8 +67,13 @@ impl Sources {
             digest("study", file)?,
             digest("calibration", &study.calibration)?,
         ];
-        let mut body = |role| Body::read(study, role, poses, &mut inputs);
-        let (mut femur, mut tibia) = (body(Role::Femur)?, body(Role::Tibia)?);
+        let body = |role| {
+            let mut inputs = Vec::new();
+            Body::read(study, role, poses, &mut inputs).map(|body| (body, inputs))
+        };
+        let (femur, tibia) = rayon::join(|| body(Role::Femur), || body(Role::Tibia));
+        let ((mut femur, of_femur), (mut tibia, of_tibia)) = (femur?, tibia?);
+        inputs.extend(of_femur.into_iter().chain(of_tibia));
         let (a, b) = (femur.poses.len(), tibia.poses.len());
         if a != b {
             bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");

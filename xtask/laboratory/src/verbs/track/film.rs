@@ -5,7 +5,7 @@ use std::fs;
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{
-    Anchor, Cell, Conclusion, KnownBeside, KnownFemur, State, conclude, trusted_depths,
+    Anchor, Cell, Conclusion, KnownBeside, KnownFemur, Settling, State, conclude, trusted_depths,
 };
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
@@ -19,10 +19,10 @@ use super::constants::learn_film;
 use super::follow::follow;
 use super::journal::Journal;
 use super::metal::begun;
-use super::part::{Part, read_models};
+use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
-use super::sides::{Margins, settle};
+use super::sides::{Margins, settle, up_to_a_choice};
 use super::table::{HEADING, Row, covariance_table, film_table};
 use crate::files::{
     Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
@@ -128,22 +128,18 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         parts: models.len(),
         seen: std::sync::Mutex::default(),
     };
-    let components = || study.components.iter().zip(&models).enumerate();
-    let parts = |polarity| -> Result<Vec<Part<'_>>> {
-        let part = |(number, (component, model))| {
-            Part::new(number, component, model, &calibration, camera, polarity)
-                .with_context(|| format!("the component {}", component.name))
-        };
-        components().map(part).collect()
+    let shapes = study.components.par_iter().zip(&models);
+    let shape = |(component, model): (_, _)| {
+        Shape::of(component, model).with_context(|| format!("the component {}", component.name))
+    };
+    let shapes: Vec<Shape<'_>> = shapes.map(shape).collect::<Result<_>>()?;
+    let parts = |polarity| -> Vec<Part<'_>> {
+        let part = |(number, shape)| Part::new(number, shape, &calibration, camera, polarity);
+        shapes.iter().enumerate().map(part).collect()
     };
     let (parts, anchors) = begun(&run, parts)?;
     learn_film(&run, &stated, &parts, &anchors)?;
-    let mut films: Vec<Vec<Cell>> = parts
-        .par_iter()
-        .zip(&anchors)
-        .map(|(part, anchors)| of_part(&run, part, anchors))
-        .collect::<Result<_>>()?;
-    let margins = on_the_right_sides(&run, &parts, &mut films)?;
+    let (films, margins) = followed(&run, &parts, &anchors)?;
     finish(&run, &parts, &films, &margins)
 }
 
@@ -186,22 +182,33 @@ fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cel
     Ok(cells)
 }
 
-/// Femurs and others first, then tibiae with the femur known.
-fn on_the_right_sides(
+/// All components, side by side as far as they need no other: a tibia waits for its femur where its sides are chosen.
+fn followed(
     run: &Run<'_>,
     parts: &[Part<'_>],
-    films: &mut [Vec<Cell>],
-) -> Result<Vec<Margins>> {
-    let mut margins = vec![Margins::new(); parts.len()];
+    anchors: &[Vec<Anchor>],
+) -> Result<(Vec<Vec<Cell>>, Vec<Margins>)> {
     let is_tibia = |part: &Part<'_>| part.role() == Some(Role::Tibia);
-    for (number, part) in parts.iter().enumerate().filter(|(_, part)| !is_tibia(part)) {
-        margins[number] = settle(run, part, None, &mut films[number])?;
-    }
+    let alone = |(part, anchors): (&Part<'_>, &Vec<Anchor>)| -> Result<(Vec<Cell>, Settling)> {
+        let mut cells = of_part(run, part, anchors)?;
+        let mut settling = Settling::new(part.middle(), 0..cells.len());
+        if up_to_a_choice(run, part, &mut settling, &mut cells)? && !is_tibia(part) {
+            settle(run, part, None, &mut settling, &mut cells)?;
+        }
+        Ok((cells, settling))
+    };
+    let each = parts.par_iter().zip(anchors).map(alone);
+    let each = each.collect::<Result<Vec<_>>>()?;
+    let (mut films, mut settlings): (Vec<_>, Vec<_>) = each.into_iter().unzip();
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| is_tibia(part)) {
-        let femur = femur_of(part, parts, films);
-        margins[number] = settle(run, part, femur.as_ref(), &mut films[number])?;
+        let femur = femur_of(part, parts, &films);
+        let settling = &mut settlings[number];
+        settle(run, part, femur.as_ref(), settling, &mut films[number])?;
     }
-    Ok(margins)
+    let margins = settlings.iter().zip(&films);
+    let margins = margins.map(|(settling, cells)| settling.margins(cells));
+    let margins = margins.collect();
+    Ok((films, margins))
 }
 
 /// The femur of a tibia, where both components' axes are known.

@@ -22,15 +22,15 @@ const VOTES: usize = 3;
 /// [`SearchPlan`] tells. Where nobody says how the film shows metal, and nothing is pointed at that would tell it, that is in two ways.
 pub(super) fn begun<'s>(
     run: &Run<'_>,
-    parts: impl Fn(Polarity) -> Result<Vec<Part<'s>>>,
+    parts: impl Fn(Polarity) -> Vec<Part<'s>>,
 ) -> Result<(Vec<Part<'s>>, Vec<Vec<Anchor>>)> {
     let told = match run.request.polarity {
         Some(stated) => Some(stated),
-        None => told_by_what_is_given(run, &parts(Polarity::default())?)?,
+        None => told_by_what_is_given(run, &parts(Polarity::default()))?,
     };
-    let mut ways = vec![Way::begin(run, parts(told.unwrap_or_default())?)?];
+    let mut ways = vec![Way::begin(run, parts(told.unwrap_or_default()))?];
     if told.is_none() {
-        ways.push(Way::begin(run, parts(Polarity::BrightImplant)?)?);
+        ways.push(Way::begin(run, parts(Polarity::BrightImplant))?);
     }
     let mut sought: Vec<Sought> = ways.iter().flat_map(Way::sought).collect();
     let mut plan = SearchPlan::new(run.film.count(), told.is_some());

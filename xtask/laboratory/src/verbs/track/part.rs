@@ -16,6 +16,7 @@ use fluoropose::pose::Pose;
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::morphology::widen;
+use rayon::prelude::*;
 
 use super::request::{Listener, Told};
 use crate::files::{
@@ -59,25 +60,32 @@ pub(super) fn read_models(
     components: &[Component],
     listener: &Listener,
 ) -> Result<Vec<OwnedModel>> {
-    let read = |one: &Component| {
-        let (model, remarks) = read_model_and_remarks_of(&one.model, one.role())?;
+    let read = |one: &Component| read_model_and_remarks_of(&one.model, one.role());
+    let read: Vec<_> = components.par_iter().map(read).collect();
+    let told = components.iter().zip(read).map(|(one, read)| {
+        let (model, remarks) = read?;
         for remark in remarks {
             listener(Told::Remark(format!("{}: {remark}", one.name)));
         }
         Ok(model)
-    };
-    components.iter().map(read).collect()
+    });
+    told.collect()
 }
 
-impl<'s> Part<'s> {
-    pub(super) fn new(
-        number: usize,
-        component: &'s Component,
-        model: &'s OwnedModel,
-        calibration: &'s Calibration,
-        camera: Camera,
-        polarity: Polarity,
-    ) -> Result<Self> {
+/// What the shape of a component tells: it takes as long as looking at some frames.
+#[derive(Clone)]
+pub(super) struct Shape<'s> {
+    component: &'s Component,
+    model: &'s OwnedModel,
+    planes: Vec<SymmetryPlane>,
+    axes: Option<Pose>,
+    limb: Option<Limb<'s>>,
+}
+
+impl<'s> Shape<'s> {
+    /// # Errors
+    /// For axes that the study states wrongly.
+    pub(super) fn of(component: &'s Component, model: &'s OwnedModel) -> Result<Self> {
         let mesh = model.as_model();
         let planes = symmetry_planes(mesh.mesh()).to_vec();
         let told = match component.role() {
@@ -93,10 +101,35 @@ impl<'s> Part<'s> {
             axes,
         });
         Ok(Self {
+            component,
+            model,
+            planes,
+            axes,
+            limb,
+        })
+    }
+}
+
+impl<'s> Part<'s> {
+    pub(super) fn new(
+        number: usize,
+        shape: &Shape<'s>,
+        calibration: &'s Calibration,
+        camera: Camera,
+        polarity: Polarity,
+    ) -> Self {
+        let Shape {
+            component,
+            model,
+            planes,
+            axes,
+            limb,
+        } = shape.clone();
+        Self {
             number,
             component,
             model,
-            mesh,
+            mesh: model.as_model(),
             planes,
             axes,
             limb,
@@ -106,7 +139,7 @@ impl<'s> Part<'s> {
             libraries: Default::default(),
             film: OnceLock::new(),
             buffers: Mutex::default(),
-        })
+        }
     }
 
     pub(super) fn name(&self) -> &str {

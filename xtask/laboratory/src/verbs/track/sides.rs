@@ -15,27 +15,22 @@ use super::run::Run;
 /// By how much another pose of each frame is less likely; `None` where there is none.
 pub(super) type Margins = Vec<Option<SideMargin>>;
 
-/// Brings a component to its right side of the mirror and out of false minima. `femur` is that of a tibia, where
-/// it is known.
-pub(super) fn settle(
+/// Brings a component on to where its sides are chosen, which needs no femur; whether they are to be.
+pub(super) fn up_to_a_choice(
     run: &Run<'_>,
     part: &Part<'_>,
-    femur: Option<&KnownFemur>,
+    settling: &mut Settling,
     cells: &mut [Cell],
-) -> Result<Margins> {
-    let mut settling = Settling::new(part.middle(), 0..cells.len());
+) -> Result<bool> {
     while let Some(step) = settling.next(cells) {
         match step {
             SettlingStep::Cross(crossing) => cross(run, part, *crossing, cells)?,
             SettlingStep::See(rival, frames) => {
-                for sample in seen(run, part, cells, (rival, &frames), &settling)? {
+                for sample in seen(run, part, cells, (rival, &frames), settling)? {
                     settling.saw(sample);
                 }
             }
-            SettlingStep::Choose => {
-                settling.choose(femur);
-                tell(run, part, femur, &settling);
-            }
+            SettlingStep::Choose => return Ok(true),
             SettlingStep::GoOver(runs) => {
                 for (range, anchor) in runs {
                     follow(run, part, &[anchor], range, cells)?;
@@ -44,7 +39,25 @@ pub(super) fn settle(
             SettlingStep::LookAgain(looks) => look_again(run, part, &looks, cells)?,
         }
     }
-    Ok(settling.margins(cells))
+    Ok(false)
+}
+
+/// Brings a component from there to its right side of the mirror and out of false minima. `femur` is that of a tibia, where
+/// it is known.
+pub(super) fn settle(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    femur: Option<&KnownFemur>,
+    settling: &mut Settling,
+    cells: &mut [Cell],
+) -> Result<()> {
+    loop {
+        settling.choose(femur);
+        tell(run, part, femur, settling);
+        if !up_to_a_choice(run, part, settling, cells)? {
+            return Ok(());
+        }
+    }
 }
 
 fn tell(run: &Run<'_>, part: &Part<'_>, femur: Option<&KnownFemur>, settling: &Settling) {
