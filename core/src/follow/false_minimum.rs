@@ -6,8 +6,8 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::side_margin::{SideMargin, side_margin};
-use super::side_samples::{SideSample, runs_to_go_over};
-use super::sides::{Side, SideEvidence, SideStep, choose_sides};
+use super::side_samples::{SideSample, evidence_of, runs_to_go_over};
+use super::sides::{Side, SideStep, choose_sides};
 use crate::math::ln;
 
 /// So often a film may go over to what was seen elsewhere: from one minimum to another, and from there once more.
@@ -35,8 +35,7 @@ pub(super) fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Op
 
 /// What the film says of the trail and of what was seen elsewhere.
 fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
-    let evidence = samples.iter().map(|sample| sample.evidence(|_| None));
-    let evidence: Vec<SideEvidence> = evidence.collect();
+    let evidence = evidence_of(samples, |_, _| None);
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps

@@ -14,8 +14,8 @@ use super::known_femur::KnownFemur;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
 use super::side_margin::SideMargin;
-use super::side_samples::{SideSample, frames_for_sides, runs_to_go_over};
-use super::sides::{Rival, SideEvidence, SideStep, choose_sides};
+use super::side_samples::{SideSample, evidence_of, frames_for_sides, runs_to_go_over};
+use super::sides::{Rival, SideStep, choose_sides};
 use crate::math::Vector3;
 
 /// What is to be done next.
@@ -265,10 +265,7 @@ impl Settling {
 
 /// The side of each frame that was seen from both, with the femur where that is known.
 fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
-    let evidence = samples
-        .iter()
-        .map(|sample| sample.evidence(|pose| femur?.tilt_deg(sample.frame, pose)));
-    let evidence: Vec<SideEvidence> = evidence.collect();
+    let evidence = evidence_of(samples, |frame, pose| femur?.tilt_deg(frame, pose));
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps

@@ -1,6 +1,8 @@
 //! Frames of a film seen from both sides of a component's mirror, and from elsewhere: which, what they say, and where another
 //! pose is taken.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
@@ -11,6 +13,9 @@ use crate::pose::{Pose, geodesic_deg};
 /// Every so many frames both sides are looked at; more often in a short film.
 const EVERY: usize = 8;
 const LEAST: usize = 6;
+/// Poses of two frames belong together crosswise where they are nearer by this part than as they are.
+#[cfg(feature = "alloc")]
+const CROSSED: f64 = 0.5;
 /// Where there is no other side, it fits so many times worse.
 const NO_OTHER: f64 = 10.0;
 
@@ -55,7 +60,21 @@ impl SideSample {
             mirrored: other.as_ref().map_or(none, figures),
             apart_deg: other.map_or(180.0, apart),
             rival: self.rival,
+            went_over: false,
         }
+    }
+
+    /// Whether the trail has gone over to the other side between an earlier frame and this one: each pose is much nearer to the other
+    /// one of the other frame. Where the part turns as far between the two as its sides are apart, nothing tells.
+    #[cfg(feature = "alloc")]
+    fn went_over_since(&self, before: &Self) -> bool {
+        let (Some(other), Some(before_other)) = (&self.other, &before.other) else {
+            return false;
+        };
+        let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
+        let stayed = deg(&self.own, &before.own) + deg(other, before_other);
+        let crossed = deg(&self.own, before_other) + deg(other, &before.own);
+        self.rival == Rival::Mirrored && crossed < CROSSED * stayed
     }
 
     /// The other pose; none where a person has chosen.
@@ -71,6 +90,22 @@ impl SideSample {
             false => Some(self.own),
         }
     }
+}
+
+/// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
+/// the other component, where that is known.
+#[cfg(feature = "alloc")]
+pub(super) fn evidence_of(
+    samples: &[SideSample],
+    tilt_deg: impl Fn(usize, &Pose) -> Option<f64>,
+) -> Vec<SideEvidence> {
+    let befores = core::iter::once(None).chain(samples.iter().map(Some));
+    let each = samples.iter().zip(befores);
+    let evidence = each.map(|(sample, before)| SideEvidence {
+        went_over: before.is_some_and(|before| sample.went_over_since(before)),
+        ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
+    });
+    evidence.collect()
 }
 
 /// The frames that are to be seen from both sides, in their order.

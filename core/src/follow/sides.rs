@@ -38,6 +38,9 @@ pub struct SideEvidence {
     pub apart_deg: f64,
     /// What the other pose is.
     pub rival: Rival,
+    /// Whether the trail has gone over to the other side since the frame before: one side of the mirror is then the trail there and the
+    /// other pose here.
+    pub went_over: bool,
 }
 
 /// Which of the two is the right one.
@@ -121,6 +124,14 @@ impl SideEvidence {
         }
     }
 
+    /// What the pose of a number, 0 for the trail's, is in the frame before, and the other way round.
+    fn across(&self, pose: usize) -> usize {
+        match self.went_over {
+            true => 1 - pose,
+            false => pose,
+        }
+    }
+
     /// Whether both sides of a mirror are one here.
     fn meet(&self) -> bool {
         self.rival == Rival::Mirrored && self.apart_deg < ONE_DEG
@@ -136,7 +147,10 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
         let own = evidence[at].costs();
         let led = at.checked_sub(1).map(|last| {
             let (before, go_over) = (steps[last].costs, evidence[last].to(&evidence[at]));
-            [0, 1].map(|to: usize| before[to].min(before[1 - to] + go_over))
+            [0, 1].map(|to: usize| {
+                let from = evidence[at].across(to);
+                before[from].min(before[1 - from] + go_over)
+            })
         });
         let led = led.unwrap_or_default();
         steps[at] = SideStep {
@@ -149,7 +163,10 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
         if let Some(next) = evidence.get(at + 1) {
             let (own, go_over) = (next.costs(), evidence[at].to(next));
             let from = [0, 1].map(|side: usize| rest[side] + own[side]);
-            rest = [0, 1].map(|side: usize| from[side].min(from[1 - side] + go_over));
+            rest = [0, 1].map(|side: usize| {
+                let to = next.across(side);
+                from[to].min(from[1 - to] + go_over)
+            });
         }
         let step = &mut steps[at];
         let [own, mirrored] = [0, 1].map(|side: usize| step.costs[side] + rest[side]);
@@ -178,6 +195,7 @@ mod tests {
             mirrored: figures(ratio, 1),
             apart_deg,
             rival: Rival::Mirrored,
+            went_over: false,
         }
     }
 
@@ -213,6 +231,39 @@ mod tests {
         let sides: Vec<Side> = chosen(&film).iter().map(|step| step.0).collect();
         assert_eq!(sides[..4], [Side::Own; 4]);
         assert_eq!(sides[5..], [Side::Mirrored; 4]);
+    }
+
+    /// A trail that jumped over the mirror is no way: what goes on there is the other pose.
+    #[test]
+    fn where_the_trail_jumped_over_its_other_side_goes_on() {
+        let film = |went_over: bool| -> Vec<SideEvidence> {
+            let before = (0..3).map(|frame| seen(frame, 1.2, Some([0.2, 2.4]), 90.0));
+            let behind = (3..5).map(|frame| SideEvidence {
+                went_over: went_over && frame == 3,
+                ..seen(frame, 0.9, Some([2.5, 1.2]), 90.0)
+            });
+            before.chain(behind).collect()
+        };
+        let sides = |film: &[SideEvidence]| -> Vec<Side> {
+            chosen(film).iter().map(|step| step.0).collect()
+        };
+        let (own, other) = (Side::Own, Side::Mirrored);
+        assert_eq!(sides(&film(true)), [own, own, own, other, other]);
+        assert_eq!(sides(&film(false)), [own; 5]);
+        // Whichever the trail is called.
+        let mut turned = film(true);
+        turned[3..].iter_mut().for_each(|one| {
+            (one.own, one.mirrored) = (one.mirrored, one.own);
+        });
+        turned[3].went_over = false;
+        let margins = |film: &[SideEvidence]| {
+            chosen(film)
+                .into_iter()
+                .map(|step| step.1)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(sides(&turned), [own; 5]);
+        assert_eq!(margins(&turned), margins(&film(true)));
     }
 
     #[test]
