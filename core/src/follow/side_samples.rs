@@ -157,6 +157,12 @@ mod tests {
     use super::*;
     use crate::follow::fake::turned;
     use crate::follow::sides::choose_sides;
+    #[cfg(feature = "alloc")]
+    use crate::math::{Matrix3, multiply, norm, rotation_by, scale};
+    #[cfg(feature = "alloc")]
+    use proptest::array::{uniform2, uniform3};
+    #[cfg(feature = "alloc")]
+    use proptest::prelude::*;
     use std::vec::Vec;
 
     /// A film that speaks for the other side in all frames but the one that a person gave.
@@ -178,5 +184,38 @@ mod tests {
         let runs: Vec<(Range<usize>, Anchor)> = runs_to_go_over(&samples, &steps, 24).collect();
         assert_eq!(runs.len(), 1);
         assert_ne!(runs[0].1.frame, 0);
+    }
+
+    #[cfg(feature = "alloc")]
+    proptest! {
+        /// Two ways on either side of a mirror, each turning a little from frame to frame; a model's axes and a camera's are any.
+        #[test]
+        fn a_trail_that_jumped_is_known_by_the_ways_on_both_sides(
+            model in uniform3(-1.8..1.8f64), camera in uniform3(-1.8..1.8f64),
+            axis in uniform3(-1.0..1.0f64), apart in 0.6..2.6f64,
+            turns in uniform2(uniform3(-0.12..0.12f64)), jumped in any::<bool>(),
+        ) {
+            prop_assume!(norm(&axis) > 0.1);
+            let [model, camera] = [model, camera].map(|turn| rotation_by(&turn));
+            let mirrored = rotation_by(&scale(&axis, apart / norm(&axis)));
+            let posed = |rotation: &Matrix3| {
+                let mut found = turned(0.0, 0.5);
+                found.pose.rotation = multiply(&camera, &multiply(rotation, &model));
+                found
+            };
+            let sample = |frame: usize, [own, other]: [&Matrix3; 2]| SideSample {
+                frame,
+                own: posed(own),
+                rival: Rival::Mirrored,
+                other: Some(posed(other)),
+                fixed: false,
+            };
+            let [one, other] = [(&turns[0], &rotation_by(&[0.0; 3])), (&turns[1], &mirrored)]
+                .map(|(turn, side)| multiply(&rotation_by(turn), side));
+            let before = sample(0, [&rotation_by(&[0.0; 3]), &mirrored]);
+            let behind = sample(8, if jumped { [&other, &one] } else { [&one, &other] });
+            let evidence = evidence_of(&[before, behind], |_, _| None);
+            prop_assert_eq!([evidence[0].went_over, evidence[1].went_over], [false, jumped]);
+        }
     }
 }
