@@ -2,6 +2,7 @@ import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
+import { isSilhouette } from './laid_by';
 import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
@@ -25,6 +26,8 @@ export interface Followed {
   readonly rival: Pick<Candidate, 'pose' | 'residual'> | null;
   /** It was followed from nothing but doubtful poses. */
   readonly led: boolean;
+  /** The others were followed from it, and nobody had set it: the film has the word now. */
+  readonly isLeader: boolean;
   /** A sentence without its full stop. */
   readonly because: string;
   /** The frames that it was followed from. */
@@ -34,6 +37,11 @@ export interface Followed {
 /** Nobody worked on it, so that following may say what is there. */
 export function isFree({ outline, result }: Cell): boolean {
   return outline === null && (result === null || isFollowed(result));
+}
+
+/** The program found it, by itself or from a click, and nobody chose another. */
+export function isFound({ outline, result }: Cell): boolean {
+  return isSilhouette(outline) && result?.kind === 'posed' && result.from === 'outline' && result.chosen === 0;
 }
 
 /** Whether following said what is there, and nobody took another pose. */
@@ -82,6 +90,7 @@ export function takeFollowed(found: readonly Followed[]): Command {
 
 function withFollowed(doc: Doc, one: Followed): Doc {
   const cell = cellOf(doc, one.place.frameId, one.place.component);
+  if (one.isLeader && !isFollowed(cell.result)) return isFound(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
   return isFree(cell) ? withCell(doc, one.place, { ...cell, result: resultOf(one), resultOf: null }) : doc;
 }
 
