@@ -49,6 +49,12 @@ export function isFollowed(result: Result | null): boolean {
   return isFromFilm(result) && (result?.kind !== 'posed' || result.chosen === 0);
 }
 
+/** Were the others followed from it, though nobody set it? It names itself as what it was followed from, on both sides. */
+export function hasLed(result: Result | null): boolean {
+  const [before, after] = isFollowed(result) ? result!.origin.split(' and ') : [];
+  return after !== undefined && before!.endsWith(after);
+}
+
 /** Did an outline take the place of a pose that following found? Nobody who clicked beside something else would see it. */
 export function gaveWay(before: Doc, after: Doc, { frameId, component }: Place): boolean {
   const { outline, result } = cellOf(before, frameId, component);

@@ -1,5 +1,5 @@
 import type { Place } from '../document/command';
-import { isFollowed, isFound, isFree } from '../document/followed';
+import { hasLed, isFollowed, isFound, isFree } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -89,7 +89,7 @@ function givenIn(doc: Doc, place: Place, frame: number): Given | null {
   if (!pose) return null;
   const isChecked = checkState(cell, markOf(doc, place)) === 'yes';
   if (isFollowed(cell.result)) {
-    const led = cell.result!.origin.endsWith(keyOf({ frame, pose }));
+    const led = hasLed(cell.result);
     return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led } : null;
   }
   const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
@@ -114,7 +114,7 @@ function firstFrom(given: readonly Given[], frame: number): number {
   return low;
 }
 
-function keyOf({ frame, pose }: Pick<Given, 'frame' | 'pose'>): string {
+function keyOf({ frame, pose }: Given): string {
   const { x, y, z, zRot, xRot, yRot } = pose;
   return `frame ${frame + 1} at ${[x, y, z, zRot, xRot, yRot].map((number) => number.toFixed(3)).join(' ')}`;
 }
