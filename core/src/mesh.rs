@@ -2,6 +2,8 @@
 
 pub mod anatomy;
 #[cfg(feature = "alloc")]
+mod bodies;
+#[cfg(feature = "alloc")]
 mod coarse;
 pub mod edges;
 pub mod mirror;

@@ -1,6 +1,6 @@
 /**
- * The page's workers and the command look for the same, in the same frames and order, where nobody points at anything, and find it in the
- * same places. The film is drawn here, so that it is small; the command keeps in its journal what each search led to.
+ * The page's workers and the command look for the same, in the same frames and order, where nobody points at anything, find it in the
+ * same places, and say the same of each frame. The film is drawn here, so that it is small; the command keeps in its journal what each search led to.
  */
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
@@ -11,7 +11,9 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
 import { decode, encode } from 'fast-png';
-import { PATIENCE, setting } from './support/browser.mjs';
+import { IN_FIREFOX, PATIENCE, pageTest, screenshot, setting } from './support/browser.mjs';
+import { choose, file } from './support/files.mjs';
+import * as panel from './support/panel.mjs';
 import { demoFile } from './support/study.mjs';
 
 const SIDE = 512;
@@ -26,8 +28,8 @@ const SAME = 1e-6;
 /** @typedef {{ kind: string, part: number, frame: number, pose: number[] | null }} Searched numbers of the matrix row by row, then of the shift */
 
 test('page and command find the same from nothing', { timeout: 3 * PATIENCE }, async (t) => {
-  const frames = await Promise.all(Array.from({ length: FRAMES }, (_, frame) => drawn(frame)));
-  const byCommand = await searchedByCommand(frames);
+  const frames = await drawnFilm();
+  const byCommand = searchedByCommand(await tracked(frames));
   const inWorkers = await searchedInWorkers(frames);
   t.diagnostic(byCommand.map(({ kind, part, frame, pose }) => `${kind} ${part} in frame ${frame}: ${pose ? 'found' : 'nothing'}`).join(', '));
   const order = (/** @type {Searched[]} */ all) => all.map(({ kind, part, frame, pose }) => [kind, part, frame, pose !== null]);
@@ -35,6 +37,39 @@ test('page and command find the same from nothing', { timeout: 3 * PATIENCE }, a
   assert.deepEqual(byCommand.map(({ kind, part, pose }) => [kind, part, pose !== null]), [['search', 0, true], ['joint', 1, true]]);
   inWorkers.forEach(({ pose }, at) => pose?.forEach((number, k) => assert(Math.abs(number - (byCommand[at]?.pose?.[k] ?? NaN)) < SAME, `number ${k} of search ${at}`)));
 });
+
+if (!IN_FIREFOX) {
+  pageTest('page and command trust the same frames, from nothing', async (page, t) => {
+    const frames = await drawnFilm();
+    const { table } = await tracked(frames);
+    const rows = table.trim().split('\n').slice(1).map((line) => line.replaceAll('"', '').split(','));
+    const byCommand = rows.map(([frame, component, , verdict]) => `frame ${frame}, ${component}: ${verdict}`);
+    const pictures = frames.map((data, number) => file(`${number}.png`, pictureOf(data)));
+    const models = await Promise.all(PARTS.map(([name]) => demoFile(`${name}.stl`)));
+    await choose(page, ...pictures, file('calibration.txt', CALIBRATION), ...models);
+    await panel.waitForFrames(page, FRAMES);
+    await panel.waitForLibraries(page, 'Femur', 'Tibia');
+    await page.keyboard.press('Shift+G');
+    await panel.waitForWords(page, /^\d+ poses? found/);
+    const said = (/** @type {string} */ cell) => (/doubtful/.test(cell) ? 'doubtful' : /: (posed|followed)/.test(cell) ? 'good' : 'none');
+    const inPage = (await panel.cells(page)).map((cell) => `${/^Frame \d+, \w+/.exec(cell)?.[0].toLowerCase()}: ${said(cell)}`);
+    t.diagnostic(byCommand.join('; '));
+    await screenshot(page, 'from nothing');
+    assert.deepEqual(inPage.toSorted(), byCommand.toSorted());
+    // Nothing is left to be followed: neither what led nor the film has changed since.
+    await page.keyboard.press('Shift+G');
+    await panel.waitForWords(page, /^Every frame is followed already/);
+  });
+}
+
+function drawnFilm() {
+  return Promise.all(Array.from({ length: FRAMES }, (_, frame) => drawn(frame)));
+}
+
+/** @param {Uint8Array} data */
+function pictureOf(data) {
+  return encode({ width: SIDE, height: SIDE, data, channels: 1, depth: 8 });
+}
 
 /** Half as large as the demonstration's masks, with a little noise. @param {number} number */
 async function drawn(number) {
@@ -50,28 +85,33 @@ async function drawn(number) {
   return Uint8Array.from(grey, (value) => value + ((seed = (seed * 1_103_515_245 + 12_345) % 2_147_483_648) / 2_147_483_648 - 0.5) * 6);
 }
 
-/** @param {Uint8Array[]} frames @returns {Promise<Searched[]>} */
-async function searchedByCommand(frames) {
+/** What the command writes. @param {Uint8Array[]} frames */
+async function tracked(frames) {
   const folder = await mkdtemp(join(tmpdir(), 'fluoropose-from-nothing-'));
   try {
     await mkdir(join(folder, 'frames'));
-    for (const [number, data] of frames.entries()) await writeFile(join(folder, 'frames', `${number}.png`), encode({ width: SIDE, height: SIDE, data, channels: 1, depth: 8 }));
+    for (const [number, data] of frames.entries()) await writeFile(join(folder, 'frames', `${number}.png`), pictureOf(data));
     for (const [name] of PARTS) await writeFile(join(folder, `${name}.stl`), (await demoFile(`${name}.stl`)).buffer);
     await writeFile(join(folder, 'calibration.txt'), CALIBRATION);
     await writeFile(join(folder, 'study.toml'), STUDY);
     const words = ['track', '--study', join(folder, 'study.toml'), '--out', join(folder, 'out')];
     // It exits with 3 where no pose is good.
     await promisify(execFile)(setting('FLUOROPOSE_LABORATORY'), words).catch((error) => assert.equal(error.code, 3, error.stderr));
-    const journal = await readFile(join(folder, 'out', 'journal.txt'), 'utf8');
-    return journal.split('\n').flatMap((line) => {
-      const [key = '', ...numbers] = line.split(' ');
-      const [kind = '', part, phase, frame] = key.split('/');
-      const pose = numbers.length > 0 ? numbers.slice(0, 12).map(numberOf) : null;
-      return phase === 'bare' && (kind === 'search' || kind === 'joint') ? [{ kind, part: Number(part), frame: Number(frame), pose }] : [];
-    });
+    const [journal, table] = await Promise.all(['journal.txt', 'track.csv'].map((name) => readFile(join(folder, 'out', name), 'utf8')));
+    return { journal: journal ?? '', table: table ?? '' };
   } finally {
     await rm(folder, { recursive: true });
   }
+}
+
+/** @param {{ journal: string }} written @returns {Searched[]} */
+function searchedByCommand({ journal }) {
+  return journal.split('\n').flatMap((line) => {
+    const [key = '', ...numbers] = line.split(' ');
+    const [kind = '', part, phase, frame] = key.split('/');
+    const pose = numbers.length > 0 ? numbers.slice(0, 12).map(numberOf) : null;
+    return phase === 'bare' && (kind === 'search' || kind === 'joint') ? [{ kind, part: Number(part), frame: Number(frame), pose }] : [];
+  });
 }
 
 /** A number by its bits. @param {string} hexadecimal */

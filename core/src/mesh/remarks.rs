@@ -72,6 +72,12 @@ impl OwnedModel {
             let triangles = count(faults.degenerate, "triangle covers", "triangles cover");
             remarks.push(format!("{triangles} nothing; this changes nothing"));
         }
+        let bodies = self.bodies();
+        if bodies > 1 {
+            remarks.push(format!(
+                "the file holds {bodies} bodies that do not touch, and all count as this one component: if another component is among them, give each a file of its own"
+            ));
+        }
         let bounds = self.as_model().bounds();
         let width = 2.0 * bounds.radius;
         remarks.extend(suspected_unit(&bounds).map(|unit| {
@@ -114,6 +120,29 @@ mod tests {
                 "{size}: {remarks:?}"
             );
         }
+    }
+
+    #[test]
+    fn bodies_that_do_not_touch_are_said_and_splinters_are_not() {
+        let of = |boxes: &[([f32; 3], [f32; 3])]| {
+            let (mut vertices, mut triangles) = (vec![], vec![]);
+            for &(low, high) in boxes {
+                add_box(low, high, &mut vertices, &mut triangles);
+            }
+            let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+            OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("boxes")
+        };
+        let (tray, stem) = (
+            ([0.0; 3], [60.0, 4.0, 40.0]),
+            ([20.0, -50.0, 15.0], [30.0, -5.0, 25.0]),
+        );
+        assert_eq!(of(&[tray]).bodies(), 1);
+        assert_eq!(of(&[tray, stem]).bodies(), 2);
+        let remarks = of(&[tray, stem]).remarks();
+        assert!(
+            remarks.len() == 1 && remarks[0].contains("2 bodies that do not touch"),
+            "{remarks:?}"
+        );
     }
 
     #[test]

@@ -2,6 +2,7 @@ import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
+import { isSilhouette } from './laid_by';
 import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
@@ -25,6 +26,8 @@ export interface Followed {
   readonly rival: Pick<Candidate, 'pose' | 'residual'> | null;
   /** It was followed from nothing but doubtful poses. */
   readonly led: boolean;
+  /** The others were followed from it, and nobody had set it: the film has the word now. */
+  readonly isLeader: boolean;
   /** A sentence without its full stop. */
   readonly because: string;
   /** The frames that it was followed from. */
@@ -36,9 +39,20 @@ export function isFree({ outline, result }: Cell): boolean {
   return outline === null && (result === null || isFollowed(result));
 }
 
+/** The program found it, by itself or from a click, and nobody chose another. */
+export function isFound({ outline, result }: Cell): boolean {
+  return isSilhouette(outline) && result?.kind === 'posed' && result.from === 'outline' && result.chosen === 0;
+}
+
 /** Whether following said what is there, and nobody took another pose. */
 export function isFollowed(result: Result | null): boolean {
   return isFromFilm(result) && (result?.kind !== 'posed' || result.chosen === 0);
+}
+
+/** Were the others followed from it, though nobody set it? It names itself as what it was followed from, on both sides. */
+export function hasLed(result: Result | null): boolean {
+  const [before, after] = isFollowed(result) ? result!.origin.split(' and ') : [];
+  return after !== undefined && before!.endsWith(after);
 }
 
 /** Did an outline take the place of a pose that following found? Nobody who clicked beside something else would see it. */
@@ -82,6 +96,7 @@ export function takeFollowed(found: readonly Followed[]): Command {
 
 function withFollowed(doc: Doc, one: Followed): Doc {
   const cell = cellOf(doc, one.place.frameId, one.place.component);
+  if (one.isLeader && !isFollowed(cell.result)) return isFound(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
   return isFree(cell) ? withCell(doc, one.place, { ...cell, result: resultOf(one), resultOf: null }) : doc;
 }
 

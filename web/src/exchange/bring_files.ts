@@ -33,22 +33,28 @@ export async function holdModel(services: Services, asset: Asset): Promise<void>
   services.studio.addModel(asset.sha256, mesh, await services.shapeOf(mesh));
 }
 
+/** A frame, and what tells its picture from others. */
+export interface Decoded {
+  readonly entry: FrameEntry;
+  readonly print: number;
+}
+
 /** Decodes every frame of a file into the studio. Frames that were there already are not held twice. */
 export async function decodeFrames(
   { decoder, studio }: Services,
   asset: Asset,
   signal: AbortSignal,
   report: (done: number, total: number) => void,
-): Promise<FrameEntry[]> {
-  const entries: FrameEntry[] = [];
+): Promise<readonly Decoded[]> {
+  const entries: Decoded[] = [];
   await decoder.call('frames', { blob: asset.blob, name: asset.name }, {
     signal,
-    onProgress: ({ index, total, frame }) => {
+    onProgress: ({ index, total, frame, print }) => {
       const id = `${asset.sha256.slice(0, 16)}:${index}`;
       studio.addFrame(id, { sha256: asset.sha256, index }, frame);
       const name = total === 1 ? asset.name : `${asset.name} #${index + 1}`;
       const { width, height } = frame;
-      entries.push({ id, name, source: asset.sha256, indexInSource: index, width, height });
+      entries.push({ entry: { id, name, source: asset.sha256, indexInSource: index, width, height }, print });
       report(index + 1, total);
     },
   });

@@ -1,4 +1,4 @@
-import { decodeFrames, holdModel } from './bring_files';
+import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
 import { lookedAt, TOLD } from './reading';
@@ -50,7 +50,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
   for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
-  if (frames.length > 0) await openFrames(services, frames, opened, failed);
+  if (frames.length > 0) await openFrames(services, frames, opened, failed, leftOut);
   const poses = sortedPoses(services.store.state, recognised.filter((file) => file.kind === 'poses'));
   for (const file of poses.clear) await attempt(file, () => openPoses(services, file), opened, failed);
   if (study) opened.push(openStudy(services, study));
@@ -187,8 +187,9 @@ async function proposeOutlines(services: Services, outlines: readonly OutlineFil
 async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
   const opened: string[] = [];
   const failed: string[] = [];
-  await openFrames(services, files, opened, failed);
-  tell(services, opened, failed);
+  const news: string[] = [];
+  await openFrames(services, files, opened, failed, news);
+  tell(services, opened, failed, news);
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
@@ -315,9 +316,10 @@ async function openFrames(
   files: readonly Incoming[],
   opened: string[],
   failed: string[],
+  news: string[],
 ): Promise<void> {
   const abort = new AbortController();
-  const entries: FrameEntry[] = [];
+  const decoded: Decoded[] = [];
   const job = {
     title: texts.said.openingFrames(files.length),
     unit: files.length === 1 ? texts.said.frames : texts.said.files,
@@ -333,7 +335,7 @@ async function openFrames(
         file,
         async () => {
           const asset = await services.assets.add(file.name, file.blob);
-          entries.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
+          decoded.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
           return '';
         },
         [],
@@ -342,8 +344,10 @@ async function openFrames(
       if (files.length > 1 && ((index + 1) % TOLD === 0 || files.length < 4 * TOLD)) report(index + 1, files.length);
     }
   });
+  const entries = decoded.map(({ entry }) => entry);
   if (entries.length === 0) return;
   addToDocument(services, distinct(entries), files[0]?.path);
+  news.push(...repeatsAmong(decoded));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
@@ -355,6 +359,18 @@ function addToDocument({ store, studio }: Services, entries: readonly FrameEntry
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
   if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: folderOf(path) ?? studyName(entries[0]!) }));
   if (store.doc.frames.length > first) store.goTo(first);
+}
+
+/** Pairs of frames that are named. */
+const NAMED = 3;
+
+/** Neighbours with the same picture: a film that stands still for a frame is rare, and one that was written twice is not. */
+function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
+  const pairs = decoded.flatMap(({ print, entry: { width } }, at) => {
+    const next = decoded[at + 1];
+    return next && next.print === print && next.entry.width === width ? [[at + 1, at + 2] as const] : [];
+  });
+  return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
 }
 
 /** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */

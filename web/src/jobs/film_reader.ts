@@ -184,7 +184,7 @@ export class FilmReader {
   /** Are there poses enough that were not asked, one that lies elsewhere now, or was one asked that is gone? */
   #isOpen(here: readonly Witness[]): boolean {
     const entries = [...this.#entries.values()];
-    const isMoved = ({ key, pose }: Witness) => !isNear(this.#entries.get(key)?.witness.pose ?? pose, pose);
+    const isMoved = ({ key, pose, hasLed }: Witness) => !hasLed && !isNear(this.#entries.get(key)?.witness.pose ?? pose, pose);
     const fresh = here.filter(({ key }) => !this.#entries.has(key));
     const isFirst = ({ component }: Witness) => !entries.some(({ witness }) => witness.component === component);
     const isEnough = fresh.length > 0 && fresh.length >= MORE * entries.length;
@@ -227,7 +227,7 @@ export class FilmReader {
     }
     for (const witness of here) {
       const entry = this.#entries.get(witness.key);
-      if (entry?.isRead && isNear(entry.witness.pose, witness.pose)) continue;
+      if (entry?.isRead && (witness.hasLed || isNear(entry.witness.pose, witness.pose))) continue;
       this.#entries.set(witness.key, { witness, isRead: true });
       read.push({ ...namesOf(witness), profiles: await this.#profilesOf(witness) });
     }

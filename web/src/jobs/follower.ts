@@ -281,15 +281,21 @@ export class Follower {
 
   #answers({ component, span }: Part, film: readonly FollowedFrame[], stopped: boolean): readonly Followed[] {
     const { doc } = this.#services.store;
+    // The film has not told of what leads before it is followed to its end.
+    const isLeader = (frame: number) => !stopped && span.given.some((one) => one.frame === frame && !one.isSet);
+    const left = (frame: number) => (stopped ? null : (film[frame]?.pose ?? null));
+    const led = span.isDoubtful || (stopped && span.given.every(({ isDoubtful }) => isDoubtful));
+    const isGiven = (frame: number) => span.given.some((one) => one.frame === frame);
     return film.flatMap((one, index) => {
       const frame = doc.frames[index];
-      const isInside = index >= span.first && index <= span.last && one.state !== 'fixed';
+      const isInside = index >= span.first && index <= span.last && (!isGiven(index) || isLeader(index));
       // What was not reached before somebody stopped it is as it was.
       if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
       const place: Place = { frameId: frame.id, component };
       const { pose, deviations, residual, badness, rival } = one;
       const { because } = one;
-      return [{ place, pose, deviations, residual, badness, rival, led: span.isDoubtful, because, doubtful: one.state === 'doubtful', from: span.key(index) }];
+      const doubtful = one.state === 'doubtful';
+      return [{ place, pose, deviations, residual, badness, rival, led, isLeader: isLeader(index), because, doubtful, from: span.key(index, left) }];
     });
   }
 }

@@ -1,5 +1,6 @@
 import { inFilmOrder, indexOfFrame } from '../document/frame_index';
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
+import { hasLed } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
 import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictOf } from '../document/types';
 import { type CellEntry, CellIndex } from '../document/cells';
@@ -24,6 +25,8 @@ export interface Witness {
   readonly frame: number;
   readonly pose: PoseNumbers;
   readonly isDoubtful: boolean;
+  /** The film was followed from it, and stays as it was read there. */
+  readonly hasLed: boolean;
 }
 
 const onFrames = new CellIndex<Cell>(({ cell: { result } }) => result?.kind === 'posed' && result.onFrame !== undefined);
@@ -53,7 +56,7 @@ export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: F
       if (!candidate || !isReady(component, entry)) return [];
       const isChecked = checkState(cell, markOf(doc, { frameId: entry.id, component })) === 'yes';
       const isDoubtful = !isChecked && verdictOf(cell.result)?.word === 'doubtful';
-      return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful }];
+      return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful, hasLed: hasLed(cell.result) }];
     });
     const good = found.filter(({ isDoubtful }) => !isDoubtful);
     const told = good.length > 0 ? good : found;
@@ -62,11 +65,11 @@ export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: F
   });
 }
 
-const mayTell = new CellIndex<Cell>(({ cell: { result } }) => result?.kind === 'posed' && result.from !== 'film');
+const mayTell = new CellIndex<Cell>(({ cell: { result } }) => result?.kind === 'posed' && (result.from !== 'film' || hasLed(result)));
 
 function toldBy({ result, outline, resultOf }: Cell, key: string | null): Candidate | null {
-  // What was followed rests on the film as it was known then.
-  if (result?.kind !== 'posed' || result.from === 'film') return null;
+  // What was followed rests on the film as it was known then, and what it was followed from told it.
+  if (result?.kind !== 'posed' || (result.from === 'film' && !hasLed(result))) return null;
   const candidate = result.candidates[result.chosen];
   if (!candidate || (candidate.residual === null && result.from !== 'file')) return null;
   const isCurrent = result.from !== 'outline' || (resultOf === outline && result.origin === key);

@@ -1,4 +1,5 @@
-import { isFollowed, isFree } from '../document/followed';
+import type { Place } from '../document/command';
+import { hasLed, isFollowed, isFound, isFree } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -12,15 +13,17 @@ export interface Span {
   /** Frames in it that nobody set. */
   readonly free: number;
   readonly given: readonly Given[];
-  /** All of them are doubtful, and so is what they lead to. */
+  /** A person set all of them, they are doubtful, and so is what they lead to. */
   readonly isDoubtful: boolean;
-  /** What a frame is followed from, as text: where that has changed it is followed again. */
-  readonly key: (frame: number) => string;
+  /** What a frame is followed from, as text: where that has changed it is followed again. Of poses that nobody set, as the film left them. */
+  readonly key: (frame: number, left?: (frame: number) => PoseNumbers | null) => string;
 }
 
 export interface Given {
   readonly frame: number;
   readonly pose: PoseNumbers;
+  /** A person set, chose or checked it: it stays. Of others the film tells whether they are right, as of every frame. */
+  readonly isSet: boolean;
   /** It may be wrong, and nobody checked it. */
   readonly isDoubtful: boolean;
   /** It was followed, and somebody found it right as it was. */
@@ -31,10 +34,12 @@ export interface Given {
 export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const given = givenPoses(doc, component);
   if (given.length === 0) return null;
-  const key = (frame: number) => keyAmong(given, frame);
+  const key: Span['key'] = (frame, left = () => null) => keyAmong(given.map((one) => (one.isSet ? one : { ...one, pose: left(one.frame) ?? one.pose })), frame);
   // Frames that were followed together with one that somebody finds right need not be followed again for it.
   const besidesAccepted = given.filter(({ isAccepted }) => !isAccepted);
-  const isDoubtful = given.every((one) => one.isDoubtful);
+  const isDoubtful = given.every((one) => one.isDoubtful && one.isSet);
+  // Of what nobody set the whole film is to tell.
+  const isOpen = given.some((one) => one.isDoubtful && !one.isSet);
   const set = new Set(given.map(({ frame }) => frame));
   const stale = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
@@ -42,7 +47,7 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
     const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
     // Sessions from before `own` do not know what is said of it now.
     const isLed = !isDoubtful && verdictOf(cell.result)?.because === texts.follow.fromDoubtful;
-    const isDone = !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
+    const isDone = !isOpen && !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
     return isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
@@ -60,17 +65,35 @@ export function isLeadDoubtful(doc: Doc, component: ComponentName): (frame: numb
   return (frame, origin) => (given.length > 0 && origin.endsWith(keyAmong(given, frame)) ? isDoubtful : null);
 }
 
-/** Poses that a person set, traced, opened or checked. Those of a doubtful outline lead only where there is nothing better. */
+/**
+ * Poses that lead: those that a person set, traced, opened or checked, and what the program found where nobody set any. Doubtful ones lead
+ * only where there is nothing better.
+ */
 function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
-  const all = doc.frames.flatMap(({ id }, frame) => {
-    const cell = cellOf(doc, id, component);
-    const isChecked = checkState(cell, markOf(doc, { frameId: id, component })) === 'yes';
-    const pose = chosenCandidate(cell)?.pose;
-    const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
-    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose, isDoubtful, isAccepted: isFollowed(cell.result) }] : [];
-  });
-  const trusted = all.filter(({ isDoubtful }) => !isDoubtful);
-  return trusted.length > 0 ? trusted : all;
+  const all = doc.frames.flatMap(({ id }, frame) => givenIn(doc, { frameId: id, component }, frame) ?? []);
+  const isOfPerson = all.some((one) => !one.isAccepted && !one.isDoubtful && !isLeader(one));
+  const leading = isOfPerson ? all.filter((one) => !isLeader(one)) : all;
+  const trusted = leading.filter(({ isDoubtful }) => !isDoubtful);
+  const open = leading.filter(({ isSet }) => !isSet);
+  return trusted.length > 0 ? trusted : open.length > 0 ? open : leading;
+}
+
+/** It led once, and the film has told since whether it is right. */
+function isLeader({ isSet, isDoubtful }: Given): boolean {
+  return !isSet && !isDoubtful;
+}
+
+function givenIn(doc: Doc, place: Place, frame: number): Given | null {
+  const cell = cellOf(doc, place.frameId, place.component);
+  const pose = chosenCandidate(cell)?.pose;
+  if (!pose) return null;
+  const isChecked = checkState(cell, markOf(doc, place)) === 'yes';
+  if (isFollowed(cell.result)) {
+    const led = hasLed(cell.result);
+    return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led } : null;
+  }
+  const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
+  return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false };
 }
 
 function keyAmong(given: readonly Given[], frame: number): string {

@@ -33,6 +33,8 @@ export const said = {
   asPoses: (name: string, component: string) => `${name} as poses of the ${component}`,
   asPosesInOrder: (name: string, component: string, rows: number, frames: number) =>
     `${name} as poses of the ${component} (${rows} rows for ${frames} frames: in order, from the first)`,
+  repeats: (pairs: readonly (readonly [number, number])[], more: number) =>
+    `Frames ${pairs.map(([one, other]) => `${one} and ${other}`).join(', ')}${more > 0 ? ` and ${more} more pairs` : ''} are the same to the last pixel: was one written twice? They count as neighbours at even times.`,
   theFrames: (count: number, name: string) => (count === 1 ? `the frame ${name}` : `${count} frames`),
   openingFrames: (files: number) => (files === 1 ? 'Opening frames' : `Opening ${files} files of frames`),
   frames: 'frames',

@@ -22,7 +22,7 @@ it('says where an outline takes the place of a followed pose, and undo brings th
   store.perform(addFrames(['a', 'b'].map((id, at) => ({ id, name: id, source: 's', indexInSource: at, width: 8, height: 8 }))));
   const pose = { x: 0, y: 0, z: -900, zRot: 0, xRot: 0, yRot: 0 };
   const place = (frameId: string) => ({ frameId, component: 'femur' }) as const;
-  const found = { pose, deviations: null, residual: 0.3, doubtful: false, badness: 0, rival: null, led: false, because: 'it lies on edges', from: 'frame 2' };
+  const found = { pose, deviations: null, residual: 0.3, doubtful: false, badness: 0, rival: null, led: false, isLeader: false, because: 'it lies on edges', from: 'frame 2' };
   store.perform(takeFollowed([{ ...found, place: place('a') }]));
   const said = () => store.ui.notice?.text ?? null;
   store.perform(addPoint(place('b'), framePoint(1, 1)));

@@ -17,6 +17,8 @@ import type { ComponentName } from '../../src/terms/component';
 import type { FilmReading, FollowInput, FollowedFrame } from '../../src/workers/protocol/follow';
 
 const FRAMES = 6;
+/** So far the film moves a pose that nobody set, mm. */
+const MOVED = 0.25;
 const poseOf = (x: number): PoseNumbers => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
 const place = (frame: number) => ({ frameId: `f${frame}`, component: 'femur' as const });
 
@@ -37,8 +39,9 @@ function worker(missing: readonly number[]) {
   const answer = (frame: number): FollowedFrame => {
     const given = input!.given.find((one) => one.frame === frame);
     const isThere = seen.includes(frame) && !missing.includes(frame);
-    const state = given ? 'fixed' : isThere ? (frame === 4 ? 'doubtful' : 'followed') : seen.includes(frame) ? 'untrackable' : 'unsolved';
-    const pose = given?.pose ?? (isThere ? poseOf(10 + frame) : null);
+    const state = given?.isSet ? 'fixed' : given ? 'followed' : isThere ? (frame === 4 ? 'doubtful' : 'followed') : seen.includes(frame) ? 'untrackable' : 'unsolved';
+    // What nobody set the film may move.
+    const pose = (given && poseOf(given.pose.x + (given.isSet ? 0 : MOVED))) ?? (isThere ? poseOf(10 + frame) : null);
     return { state, because: `as ${state} says`, pose, deviations: null, residual: 0.2, badness: state === 'doubtful' ? 2 : 0, rival: compared.includes(frame) ? { pose: poseOf(-frame), residual: 0.3 } : null };
   };
   const methods: Record<string, (given: never) => unknown> = {
@@ -115,6 +118,16 @@ function bench(missing: readonly number[] = []) {
   const follower = new Follower({ store, studio } as never, workers as never, first, film);
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
   return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, taken };
+}
+
+/** A doubtful pose that a click led to. */
+function clicked(store: Store, chosen = 0): void {
+  const outline = { points: [], closed: true, unknownSides: [], laidBy: 'click' } as const;
+  const verdict = { word: 'doubtful', because: 'a part of it lies on no edge' } as const;
+  const candidates = [bare(poseOf(0)), bare(poseOf(1))];
+  const judged = candidates.map((one) => ({ ...one, judged: { misfit: 1, verdict } }));
+  const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: judged, chosen, reason: null, decided: true, verdict };
+  store.perform({ label: 'click', apply: (doc) => withCell(doc, place(2), { outline, result, resultOf: outline }) });
 }
 
 describe('following', () => {
@@ -205,6 +218,53 @@ describe('following', () => {
     await follower.follow();
     expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([5]);
     expect(at(1)?.word).toBe('good');
+  });
+
+  it('lets the film say of a pose that nobody set whether it is right, and follows from it as the film left it', async () => {
+    const { store, follower, femur, xs } = bench();
+    keepLeads(store);
+    clicked(store);
+    await follower.follow();
+    expect(femur.begun[0]?.given).toMatchObject([{ frame: 2, isSet: false }]);
+    const words = () => [0, 1, 2, 3, 4, 5].map((frame) => verdictOf(cellOf(store.doc, `f${frame}`, 'femur').result)?.word);
+    expect(words()).toEqual(['good', 'good', 'good', 'good', 'doubtful', 'good']);
+    expect(xs()).toEqual([10, 11, MOVED, 13, 14, 15]);
+    expect(cellOf(store.doc, 'f2', 'femur')).toMatchObject({ outline: null, result: { from: 'film' } });
+    await follower.follow();
+    expect(store.ui.notice?.text).toBe('Every frame is followed already from those that are set.');
+    const frame = { id: 'f6', name: 'f6', source: 's', indexInSource: 6, width: 8, height: 8 };
+    store.perform(addFrames([frame]));
+    expect(spanToFollow(store.doc, 'femur')).toMatchObject({ first: 2, last: 6, free: 1, isDoubtful: false });
+    store.undo();
+    store.perform(toggleChecked(place(4)));
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+    store.perform(toggleChecked(place(2)));
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+    store.perform(setPoseByHand(place(5), poseOf(5)));
+    await follower.follow();
+    expect(femur.begun.at(-1)?.given.map(({ frame, isSet }) => [frame, isSet])).toEqual([[2, true], [4, true]]);
+  });
+
+  it('leaves a pose that nobody set, and the doubt of it, where the film was not followed to its end', async () => {
+    const { store, follower, femur, xs } = bench();
+    clicked(store);
+    femur.stopAt(1, () => void follower.follow());
+    await follower.follow();
+    expect(xs()[2]).toBe(0);
+    expect(verdictOf(cellOf(store.doc, 'f2', 'femur').result)?.because).toBe('a part of it lies on no edge');
+    expect(verdictOf(cellOf(store.doc, 'f0', 'femur').result)?.because).toContain('followed from a pose that is doubtful');
+    femur.stopAt(-1, () => undefined);
+    expect(spanToFollow(store.doc, 'femur')).toMatchObject({ first: 0, last: 5, free: 5 });
+    await follower.follow();
+    expect(verdictOf(cellOf(store.doc, 'f2', 'femur').result)?.word).toBe('good');
+    expect(verdictOf(cellOf(store.doc, 'f0', 'femur').result)?.word).toBe('good');
+  });
+
+  it('keeps a pose that somebody chose among the answers to a click', async () => {
+    const { store, follower, femur } = bench();
+    clicked(store, 1);
+    await follower.follow();
+    expect(femur.begun[0]?.given).toMatchObject([{ frame: 2, isSet: true }]);
   });
 
   it('calls good what a doubtful pose led to as soon as that one is checked, and doubtful again without the check', async () => {

@@ -38,7 +38,7 @@ describe('models in the wrong place', () => {
     store.perform(setAxes('tibia', { ...stated, from: 'shape' }));
     const place = { frameId: 'f', component: 'femur' } as const;
     const pose = { x: 0, y: 0, z: -900, zRot: 0, xRot: 0, yRot: 0 };
-    store.perform(takeFollowed([{ place, pose, deviations: null, residual: null, doubtful: true, badness: 2, rival: null, led: false, because: 'so', from: 'frame 1' }]));
+    store.perform(takeFollowed([{ place, pose, deviations: null, residual: null, doubtful: true, badness: 2, rival: null, led: false, isLeader: false, because: 'so', from: 'frame 1' }]));
     const refused: Result = { kind: 'failed', origin: 'k', sentence: 's' };
     store.perform({ label: 'click', apply: (doc) => withCell(doc, { ...place, component: 'tibia' }, { outline: null, result: refused, resultOf: null }) });
     const before = store.doc;

@@ -294,6 +294,15 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     let table = folder.read("tracked/track.csv");
     let last = table.lines().last().expect("a row");
     assert!(last.ends_with(",\"1.png\",1"), "{table}");
+    // What is found without a click that leads nowhere does not take its place.
+    let kept = "kept as it was\n";
+    folder.write("tracked/track.csv", kept);
+    let vain = ["track", "--study", "study.toml", "--out", "tracked"];
+    let vain = [&vain[..], &["--click", "femur:1:5,5"]].concat();
+    let (code, said) = folder.run(&vain);
+    let told = "femur:1:5,5: the click leads to no pose; what tracked holds stays as it was";
+    assert!(code == 1 && said.contains(told), "{code}: {said}");
+    assert_eq!(folder.read("tracked/track.csv"), kept);
     let beyond = format!("femur:1:{side},20");
     let track = [
         "track",

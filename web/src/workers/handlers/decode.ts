@@ -1,6 +1,7 @@
 import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../../pkg/decode/fluoropose_decode.js';
 import wasmAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { DecodedFrame, DecodeProtocol, FileKind, StatedGeometry } from '../protocol/decode';
+import { printOf } from './print';
 import { serve, type Context } from './serve';
 
 /** Image and model files, decoded away from the page. */
@@ -62,7 +63,8 @@ function taken(file: FrameFile, index: number): DecodedFrame {
 async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Promise<void> {
   const total = file.count;
   for (let index = 0; index < total; index++) {
-    context.report({ index, total, frame: taken(file, index) });
+    const frame = taken(file, index);
+    context.report({ index, total, frame, print: printOf(frame.pixels) });
     await context.breathe();
   }
 }

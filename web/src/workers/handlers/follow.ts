@@ -43,7 +43,7 @@ serve<FollowProtocol>({
     frames = input.frames;
     const { text, width, height } = camera;
     const begun = new FilmFollower(mesh.vertices, mesh.triangles, text, width, height, frames, first, last, Float64Array.from(film ?? []));
-    for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)), true);
+    for (const { frame, pose, isSet } of given) begun.give(frame, Float64Array.from(poseArray(pose)), isSet);
     if (searches && searcher.isOpen) {
       searcher.knowFilm(Float64Array.from(film ?? []));
       begun.searchWhereLost();

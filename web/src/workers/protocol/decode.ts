@@ -41,7 +41,8 @@ export interface DecodeProtocol {
   frames: {
     input: { blob: Blob; name: string };
     output: number;
-    progress: { readonly index: number; readonly total: number; readonly frame: DecodedFrame };
+    /** `print` tells pictures from each other by their pixels. */
+    progress: { readonly index: number; readonly total: number; readonly frame: DecodedFrame; readonly print: number };
   };
   /** One of them. `key` names the file: one that is open already is not read again. */
   frame: { input: { key: string; blob: Blob; name: string; index: number }; output: DecodedFrame; progress: never };

@@ -55,8 +55,8 @@ export interface FollowInput {
   readonly frames: number;
   readonly first: number;
   readonly last: number;
-  /** Poses that a person set: they stay. */
-  readonly given: readonly { readonly frame: number; readonly pose: PoseNumbers }[];
+  /** Poses to follow from: what a person set stays, and of others the film tells whether they are right. */
+  readonly given: readonly { readonly frame: number; readonly pose: PoseNumbers; readonly isSet: boolean }[];
   /** Where it is lost it is looked for in whole frames, with what was opened for that. */
   readonly searches: boolean;
   /** What the film makes of the component; null where that is not known. */

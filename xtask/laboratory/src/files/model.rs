@@ -82,48 +82,9 @@ pub fn shape_doubt(model: &OwnedModel, role: Role) -> Option<String> {
         Role::Tibia => "tibial tray",
     };
     let (is, of) = (words(role.other()), words(role));
-    let several = match bodies(model) {
-        1 => String::new(),
-        bodies => format!(
-            " The file holds {bodies} bodies that do not touch: if they are both components, give each a file of its own"
-        ),
-    };
     Some(format!(
-        "this is given as the {of} but has the shape of a {is}: were the models swapped?{several}"
+        "this is given as the {of} but has the shape of a {is}: were the models swapped?"
     ))
-}
-
-/// A body with fewer of the triangles than one in this many is a marker or a splinter.
-const SPLINTER: usize = 20;
-
-/// Parts of a surface that share no vertex, but for splinters; at least one.
-fn bodies(model: &OwnedModel) -> usize {
-    let triangles = model.as_model().triangles().to_vec();
-    let mut joined: Vec<usize> = (0..model.as_model().vertices().len()).collect();
-    for [a, b, c] in &triangles {
-        let first = root(&mut joined, *a as usize);
-        for vertex in [*b, *c] {
-            let other = root(&mut joined, vertex as usize);
-            joined[other] = first;
-        }
-    }
-    let mut sizes = std::collections::BTreeMap::<usize, usize>::new();
-    for [a, ..] in &triangles {
-        *sizes.entry(root(&mut joined, *a as usize)).or_default() += 1;
-    }
-    let large = sizes
-        .values()
-        .filter(|&&size| SPLINTER * size >= triangles.len());
-    large.count().max(1)
-}
-
-/// The vertex that stands for all that are joined with one.
-fn root(joined: &mut [usize], mut vertex: usize) -> usize {
-    while joined[vertex] != vertex {
-        joined[vertex] = joined[joined[vertex]];
-        vertex = joined[vertex];
-    }
-    vertex
 }
 
 #[cfg(test)]
@@ -140,36 +101,6 @@ mod tests {
             assert_eq!(shape_doubt(model, role), None);
             let doubt = shape_doubt(model, role.other()).expect("a doubt");
             assert!(doubt.contains("swapped"), "{doubt}");
-            assert!(!doubt.contains("bodies"), "{doubt}");
-        }
-    }
-
-    #[test]
-    fn two_components_in_one_file_are_told_where_its_shape_is() {
-        let parameters = Parameters::default();
-        let femur = femur(&parameters).expect("usual");
-        let tibia = tibia(&parameters).expect("usual");
-        let first = femur.vertices.len() as u32;
-        let below = tibia.vertices.iter().map(|&[x, y, z]| [x, y - 200.0, z]);
-        let both = Triangles {
-            vertices: femur.vertices.iter().copied().chain(below).collect(),
-            triangles: femur
-                .triangles
-                .iter()
-                .copied()
-                .chain(
-                    tibia
-                        .triangles
-                        .iter()
-                        .map(|ends| ends.map(|end| first + end)),
-                )
-                .collect(),
-        };
-        let both = owned(both).expect("valid");
-        assert_eq!(bodies(&both), 2);
-        let doubts = [Role::Femur, Role::Tibia].map(|role| shape_doubt(&both, role));
-        for doubt in doubts.iter().flatten() {
-            assert!(doubt.contains("holds 2 bodies"), "{doubt}");
         }
     }
 }

@@ -1,13 +1,15 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{Anchor, Cell, FramePose, frames_to_search, run_to_search, settled};
 use fluoropose::pose::Pose;
 
 use super::follow::{follow, mark};
 use super::part::Part;
+use super::request::{Click, Told};
 use super::run::Run;
 use super::search::{clicked, searched};
+use super::table::TABLE;
 
 /// The frames whose pose a person fixed.
 pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Vec<(usize, Pose)> {
@@ -44,15 +46,27 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
         }
         match clicked(run, part, click.frame, click.place)? {
             Some(found) => anchors.push(Anchor::found(click.frame, found)),
-            None => run.say(format!(
-                "{}: the click into frame {} leads to no pose",
-                part.name(),
-                click.frame + 1
-            )),
+            None => tell_vain(run, click)?,
         }
     }
     anchors.sort_by_key(|anchor| anchor.frame);
     Ok(anchors)
+}
+
+/// Tells of a click that leads to no pose. Results that are there already are better than what is found without it.
+///
+/// # Errors
+/// Where there are such.
+fn tell_vain(run: &Run<'_>, click: &Click) -> Result<()> {
+    let told = format!("{}: the click leads to no pose", click.called);
+    let out = &run.request.out;
+    ensure!(
+        !out.join(TABLE).exists(),
+        "{told}; what {} holds stays as it was",
+        out.display()
+    );
+    (run.request.listener)(Told::Remark(told));
+    Ok(())
 }
 
 fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {

@@ -23,7 +23,7 @@ use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::{Margins, settle, up_to_a_choice};
-use super::table::{HEADING, Row, covariance_table, film_table};
+use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
     Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
 };
@@ -271,7 +271,7 @@ fn finish(
             part.rows[frame].write(&part.component, (&file, place), &mut text);
         }
     }
-    write_text(&out.join("track.csv"), &text)?;
+    write_text(&out.join(TABLE), &text)?;
     let constants = parts.iter().map(|part| (part.name(), part.film()));
     write_text(&out.join("film.csv"), &film_table(constants))?;
     run.say_done();

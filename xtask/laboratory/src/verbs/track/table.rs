@@ -28,6 +28,8 @@ pub struct Row {
     pub because: String,
 }
 
+/// The file of the table.
+pub(super) const TABLE: &str = "track.csv";
 /// First line of the table.
 pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness,file,frame_of_file\n";
