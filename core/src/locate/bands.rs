@@ -64,16 +64,22 @@ impl Neighbourhood {
         }
     }
 
-    /// Interpolated value minus target at a place, biquadratic.
-    fn residual(&self, functional: &Functional, [x, y]: [f64; 2]) -> f64 {
-        let mut value = -functional.target;
-        for (v, row) in self.y.clone().zip(&functional.nodes) {
-            let weight = lagrange(&self.y, v, y);
-            for (u, node) in self.x.clone().zip(row) {
-                value += weight * lagrange(&self.x, u, x) * node;
-            }
-        }
-        value
+    /// How much each node weighs at a place, biquadratic.
+    fn weights(&self, [x, y]: [f64; 2]) -> Weights {
+        let [columns, rows] = [(&self.x, x), (&self.y, y)].map(|(nodes, at)| {
+            core::array::from_fn::<f64, 3, _>(|k| lagrange(nodes, nodes.start + k, at))
+        });
+        rows.map(|row| columns.map(|column| row * column))
+    }
+}
+
+type Weights = [[f64; 3]; 3];
+
+impl Functional {
+    /// Interpolated value minus target.
+    fn residual(&self, weights: &Weights) -> f64 {
+        let all = weights.as_flattened().iter().zip(self.nodes.as_flattened());
+        all.fold(-self.target, |value, (weight, node)| value + weight * node)
     }
 }
 
@@ -119,8 +125,13 @@ pub(crate) fn solve(
     let mut place = origin;
     for _ in 0..ITERATIONS {
         let step = newton_step(&near, &functionals, place)?;
+        let before = place;
         for ((place, step), origin) in place.iter_mut().zip(step).zip(origin) {
             *place = (*place - step).max(origin - 1.0).min(origin + 1.0);
+        }
+        if place == before {
+            // All steps after this one are the same.
+            break;
         }
     }
     let moved = [place[0] - origin[0], place[1] - origin[1]];
@@ -133,14 +144,18 @@ fn newton_step(
     [x, y]: [f64; 2],
 ) -> Option<[f64; 2]> {
     let h = DIFFERENCE;
-    let [(f, a, b), (g, c, d)] = functionals.each_ref().map(|functional| {
-        let at = |place| near.residual(functional, place);
-        (
-            at([x, y]),
-            (at([x + h, y]) - at([x - h, y])) / (2.0 * h),
-            (at([x, y + h]) - at([x, y - h])) / (2.0 * h),
-        )
+    let places = [[x, y], [x + h, y], [x - h, y], [x, y + h], [x, y - h]];
+    let [here, right, left, below, above] = places.map(|place| {
+        let weights = near.weights(place);
+        functionals.each_ref().map(|one| one.residual(&weights))
     });
+    let slopes = |ahead: [f64; 2], behind: [f64; 2]| {
+        [
+            (ahead[0] - behind[0]) / (2.0 * h),
+            (ahead[1] - behind[1]) / (2.0 * h),
+        ]
+    };
+    let ([f, g], [a, c], [b, d]) = (here, slopes(right, left), slopes(below, above));
     let determinant = a * d - b * c;
     let scale = (a * a + b * b) * (c * c + d * d);
     // Nearly parallel equations say nothing of one direction.
