@@ -83,28 +83,6 @@ pub fn steepest_rise(
     range: f64,
     read: impl FnOnce(usize, &mut [f64]) -> Option<()>,
 ) -> NormalReading {
-    steepest(expected, range, f64::INFINITY, read)
-}
-
-/// The same, but unknown where the profile falls behind the edge, within the range, by more than `least_fall` of what it rises there for each
-/// pixel: something else lies so near that it moves the edge.
-pub(crate) fn steepest_rise_alone(
-    expected: f64,
-    range: f64,
-    read: impl FnOnce(usize, &mut [f64]) -> Option<()>,
-) -> NormalReading {
-    steepest(expected, range, FALL, read)
-}
-
-/// Slope of what lies beside an edge as a part of the edge's own.
-const FALL: f64 = 0.5;
-
-fn steepest(
-    expected: f64,
-    range: f64,
-    least_fall: f64,
-    read: impl FnOnce(usize, &mut [f64]) -> Option<()>,
-) -> NormalReading {
     let half = ((range / READING_STEP) as usize).min(REACH - HALF_FILTER - 1);
     let reach = half + HALF_FILTER;
     let mut profile = [0.0; 2 * REACH + 1];
@@ -115,12 +93,7 @@ fn steepest(
     let mut slopes = [0.0; 2 * REACH + 1];
     let slopes = &mut slopes[..=2 * half];
     differentiate(profile, slopes);
-    match strongest(slopes, expected) {
-        NormalReading::At(edge) if falls_behind(slopes, edge - expected, least_fall) => {
-            NormalReading::Unknown
-        }
-        found => found,
-    }
+    strongest(slopes, expected)
 }
 
 /// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides. Loops run along the profile,
@@ -135,14 +108,6 @@ fn differentiate(profile: &[f64], slopes: &mut [f64]) {
         }
     }
     slopes.iter_mut().for_each(|slope| *slope /= norm);
-}
-
-/// Whether a profile falls behind an edge, which lies so far from its middle, by more than a part of what it rises there.
-fn falls_behind(slopes: &[f64], edge: f64, part: f64) -> bool {
-    let reading = (edge / READING_STEP + (slopes.len() / 2) as f64 + 0.5) as usize;
-    let rise = slopes.get(reading).copied().unwrap_or_default();
-    let behind = slopes.get(reading..).unwrap_or_default();
-    behind.iter().any(|slope| *slope < -part * rise)
 }
 
 /// The maximum of rising slopes about `expected` that is greatest after the prior, to a part of a reading by a

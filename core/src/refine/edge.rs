@@ -6,7 +6,7 @@ use super::view::ImageTarget;
 use crate::image::display::QuickCurve;
 use crate::image::frame::StraightLine;
 use crate::image::mask::Mask;
-use crate::image::profile::{READING_STEP, steepest_rise, steepest_rise_alone};
+use crate::image::profile::{READING_STEP, steepest_rise};
 
 /// Weights of the readings along the tangent, one pixel apart: sixteenths.
 pub(super) const TANGENT: [f64; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
@@ -21,19 +21,6 @@ pub(super) fn edge(
     range: f64,
 ) -> NormalReading {
     steepest_rise(expected, range, |middle, profile| {
-        read(image, curve, sample, (expected, middle), profile)
-    })
-}
-
-/// The same, but unknown where another body's edge is near: the frame then shows neither where it is.
-pub(super) fn edge_alone(
-    image: &ImageTarget<'_>,
-    curve: &QuickCurve,
-    sample: &BorderPixel,
-    expected: f64,
-    range: f64,
-) -> NormalReading {
-    steepest_rise_alone(expected, range, |middle, profile| {
         read(image, curve, sample, (expected, middle), profile)
     })
 }

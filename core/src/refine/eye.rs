@@ -6,7 +6,6 @@ use super::edge;
 use super::probe::{self, OWN_STEPS};
 use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
-use crate::film::FilmModel;
 use crate::image::display::QuickCurve;
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
@@ -54,9 +53,6 @@ impl Eye<'_> {
             image.display()
         };
         let curve = QuickCurve::from(curve);
-        // Behind enhanced edges grey values fall by themselves.
-        let plain = |film: &FilmModel| film.constants.sharpening.amount == 0.0;
-        let alone = self.stage.is_last && image.film.as_ref().is_some_and(plain);
         let drawn = (&self.drawn).into();
         for (number, sample) in border.iter_mut().enumerate() {
             if !sample.is_on_surface() {
@@ -69,11 +65,7 @@ impl Eye<'_> {
                 continue;
             };
             let expected = own + self.offset;
-            let range = self.stage.range;
-            let found = match alone {
-                true => edge::edge_alone(image, &curve, sample, expected, range),
-                false => edge::edge(image, &curve, sample, expected, range),
-            };
+            let found = edge::edge(image, &curve, sample, expected, self.stage.range);
             sample.set_residual(Residual::of(found, expected));
         }
     }

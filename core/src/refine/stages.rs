@@ -16,8 +16,6 @@ pub(super) struct Stage {
     pub(super) loss: Loss,
     /// Whether edges are compared with those that the film's model puts on the drawing.
     pub(super) drawn: bool,
-    /// Whether edges of a film are where they will stay, but for a little.
-    pub(super) is_last: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
     /// Whether its steps are undamped ones of a correction.
@@ -47,7 +45,6 @@ impl Stage {
             range,
             loss,
             drawn: false,
-            is_last: false,
             turn: 0,
             corrects: false,
             every: None,
@@ -95,7 +92,6 @@ impl Pass {
         };
         Stage {
             drawn,
-            is_last: drawn && self.index + 1 == STAGES,
             turn: self.turn,
             corrects: self.corrects,
             every: drawn.then_some(every),
