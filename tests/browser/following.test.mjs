@@ -1,6 +1,6 @@
 /** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
 import assert from 'node:assert/strict';
-import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline, truePose } from './support/study.mjs';
@@ -68,7 +68,12 @@ async function twoClicks(page) {
   await card(page).getByText('Now the tibia').waitFor();
   // The femur is still being found, and tools outline what the card asks for.
   await page.keyboard.press('p');
+<<<<<<< HEAD
   await page.getByRole('radio', { name: 'Tibia', checked: true }).waitFor();
+=======
+  await drawn(page);
+  assert.equal(await page.getByRole('radio', { name: 'Tibia' }).getAttribute('aria-checked'), 'true');
+>>>>>>> 277b6986 (Browser tests: a key's effect is looked for once it is drawn, and no test says how fast the page is)
   await page.keyboard.press('o');
   await stage.click(tracing.insideOf(await trueOutline('tibia', 1)));
   await card(page).getByRole('button', { name: 'Follow the film' }).waitFor();

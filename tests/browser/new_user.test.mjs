@@ -1,4 +1,4 @@
-/** From the empty page to a refined pose, by one click and by a plain polygon; clicks and seconds counted. Fingers on the frame. */
+/** From the empty page to a refined pose, by one click and by a plain polygon; clicks counted (seconds: `cargo xtask bench --browser`). Fingers on the frame. */
 import assert from 'node:assert/strict';
 import { atRest, IN_FIREFOX, pageTest, screenshot, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
