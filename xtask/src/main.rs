@@ -100,6 +100,10 @@ enum Verb {
     Batch(Words),
     /// Put the joint motion of many studies together: knee first, then group
     Collect(Words),
+    /// Compare the poses of a followed film with its reference poses
+    Compare(Words),
+    /// Write a study's film as others would have taken it, with its truth, and follow it
+    Disguise(Words),
 }
 
 fn main() -> std::process::ExitCode {
@@ -153,6 +157,8 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Outline(words) => laboratory::run("outline", &words),
         Verb::Bound(words) => laboratory::run("bound", &words),
         Verb::Calibrate(words) => laboratory::run("calibrate", &words),
+        Verb::Compare(words) => laboratory::run("compare", &words),
+        Verb::Disguise(words) => laboratory::run("disguise", &words),
         Verb::Undistort(words) => laboratory::run("undistort", &words),
         Verb::Kinematics(words) => laboratory::run("kinematics", &words),
         Verb::Report(words) => laboratory::run("report", &words),
@@ -176,7 +182,7 @@ mod tests {
         let its: Vec<&str> = its
             .filter(|about| !about.contains("this machine"))
             .collect();
-        assert_eq!(its.len(), 15);
+        assert_eq!(its.len(), 17);
         for about in its {
             let told =
                 |verb: &clap::Command| verb.get_about().is_some_and(|a| a.to_string() == about);

@@ -15,8 +15,10 @@ use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose::shortlist::keep;
 use heapless::Vec;
 
-/// Most places.
-pub const SEEDS: usize = 12;
+/// Most places: as many by turns of each kind.
+pub const SEEDS: usize = KINDS * TURNS;
+const KINDS: usize = 4;
+const TURNS: usize = 4;
 
 /// The frame is read at so many places along its longer side.
 const CELLS: usize = 256;
@@ -39,9 +41,13 @@ const AS_DARK: usize = 2;
 /// Light that is as good as none, as a part of the frame's range.
 const DARK: f64 = 1.0 / 16.0;
 /// With less light than this, the same, a cell is as black as its frame can be: a part beyond the picture, a shutter, or metal that
-/// is clipped. Places of three kinds are given by turns, for any of them may be many: far from such cells, near them (as the rim of a
-/// field is), and on them.
+/// is clipped. Places of four kinds are given by turns, for any of them may be many: far from such cells, near them (as the rim of a
+/// field is), on them, and at the frame's border, where nothing is known of some directions.
 const CLIPPED: f64 = 1.0 / 64.0;
+/// The kind at the border.
+const AT_BORDER: usize = 3;
+/// So many directions tell, where the frame's corner leaves no more.
+const TELLING: usize = 3;
 /// Places nearer to each other than this part of the component's size are one.
 const SAME: f64 = 0.4;
 
@@ -82,7 +88,7 @@ pub fn seeds(
     let (columns, rows, cell) = cells(camera);
     let sums = first("sums", seeds_needed(camera), sums)?;
     let table = Table::of(image, (columns, rows), cell, sums);
-    let mut kinds: [Shortlist; 3] = Default::default();
+    let mut kinds: [Shortlist; KINDS] = Default::default();
     let apart = SAME * size_px;
     for part in INNER {
         let half = (part * size_px / cell).max(1.0) as usize;
@@ -105,7 +111,7 @@ pub fn seeds(
 type Shortlist = Vec<(f64, Point), SEEDS>;
 
 /// The places of all kinds by turns, as many as there is room for.
-fn by_turns(kinds: &[Shortlist; 3]) -> Vec<Point, SEEDS> {
+fn by_turns(kinds: &[Shortlist; KINDS]) -> Vec<Point, SEEDS> {
     let turns = (0..SEEDS).flat_map(|k| kinds.iter().map(move |places| places.get(k)));
     turns.flatten().map(|&(_, at)| at).take(SEEDS).collect()
 }
@@ -199,12 +205,20 @@ impl<'m> Table<'m> {
                     (outside - inside) / (outside + inside + dark)
                 })
             };
-            let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
-            // There is a place for each direction. Where the frame ends it may be as dark.
-            let _ = least.push(most.unwrap_or(0.0));
+            if let Some(most) = AROUND.into_iter().filter_map(at).reduce(f64::max) {
+                // There is a place for each direction.
+                let _ = least.push(most);
+            }
         }
         least.sort_unstable_by(f64::total_cmp);
-        let darker = least.get(AS_DARK).copied().unwrap_or(0.0);
+        // What lies beyond the frame may be as dark: of fewer directions fewer may be, in proportion.
+        let seen = least.len();
+        let as_dark = AS_DARK * seen / DIRECTIONS.len();
+        let told = least.get(as_dark).filter(|_| seen >= TELLING);
+        let darker = told.copied().unwrap_or(0.0);
+        if seen < DIRECTIONS.len() {
+            return (darker, AT_BORDER);
+        }
         let is_clipped = |half| usize::from(self.mean(self.clipped, column, row, half) > 0.0);
         (darker, is_clipped(size as usize) + is_clipped(half))
     }
@@ -374,5 +388,30 @@ mod tests {
         assert!(found[..3].iter().any(near), "{found:?}");
         let clipped = |at: &&Point| shade(at.column, at.row) == 0;
         assert!(found.iter().filter(clipped).count() >= 4, "{found:?}");
+    }
+
+    /// Nothing is known of what lies beyond the frame: it is no reason to pass over a disc at its side, or in its corner.
+    #[test]
+    fn discs_at_the_border_are_given() {
+        const SIDE: usize = 256;
+        for middle in [[8.0, 120.0], [130.0, 249.0], [247.0, 9.0]] {
+            let near = |column: f64, row: f64| libm::hypot(column - middle[0], row - middle[1]);
+            let shade = |k: usize| near((k % SIDE) as f64, (k / SIDE) as f64) < 14.0;
+            let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
+                .map(|k| if shade(k) { 90 } else { 180 })
+                .collect();
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let camera = Camera::new(SIDE, SIDE, [900.0; 2], [128.0; 2]).expect("valid");
+            let mut sums = std::vec![0.0; seeds_needed(&camera)];
+            let image = ImageTarget {
+                frame: &frame,
+                unknown: None,
+                polarity: Polarity::DarkImplant,
+                film: None,
+            };
+            let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+            let is_near = |at: &Point| near(at.column, at.row) < 14.0;
+            assert!(found.iter().any(is_near), "{middle:?}: {found:?}");
+        }
     }
 }

@@ -54,6 +54,10 @@ enum Verb {
     Batch(verbs::batch::Args),
     /// Put the joint motion of many studies together: knee first, then group
     Collect(verbs::collect::Args),
+    /// Compare the poses of a followed film with its reference poses
+    Compare(verbs::compare::Args),
+    /// Write a study's film as others would have taken it, with its truth, and follow it
+    Disguise(Box<verbs::disguise::Args>),
     /// Measure this machine at the core's work, beside other libraries
     Bench(verbs::bench::Args),
 }
@@ -120,6 +124,8 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Bound(args) => verbs::bound::run(args),
         Verb::Calibrate(args) => verbs::calibrate::run(args),
         Verb::Undistort(args) => verbs::undistort::run(args),
+        Verb::Compare(args) => verbs::compare::run(args),
+        Verb::Disguise(args) => verbs::disguise::run(*args),
         Verb::Bench(args) => verbs::bench::run(args),
     }?;
     Ok(0)

@@ -6,6 +6,8 @@ pub mod biplane;
 pub mod bound;
 pub mod calibrate;
 pub mod collect;
+pub mod compare;
+pub mod disguise;
 pub mod evaluate;
 pub mod identify;
 pub mod kinematics;

@@ -1,0 +1,98 @@
+//! A disguised film followed, against its truth.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::Result;
+use serde::Serialize;
+
+use super::clicks::click;
+use super::plan::Plan;
+use crate::files::Study;
+use crate::progress::Stop;
+use crate::verbs::compare::{self, compare};
+use crate::verbs::track::{Request, track};
+
+/// A component of a disguised film.
+#[derive(Serialize)]
+pub(super) struct Row {
+    seed: u64,
+    disguise: String,
+    clicks: usize,
+    /// Processor time of the whole film, seconds; where the system does not tell it, nothing.
+    cpu_s: Option<f64>,
+    #[serde(flatten)]
+    errors: compare::Row,
+}
+
+/// The head of the table of rows.
+pub(super) const HEADING: &str = "| seed | CPU s | component | frames | median deg | largest deg | doubtful | none | largest good deg | in plane mm | depth mm | wrong and good | disguise |\n\
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let time = self
+            .cpu_s
+            .map_or("-".to_owned(), |time| format!("{time:.0}"));
+        write!(
+            f,
+            "| {} | {time} {} {} |",
+            self.seed, self.errors, self.disguise
+        )?;
+        self.errors
+            .told()
+            .map_or(Ok(()), |told| write!(f, "\n{told}"))
+    }
+}
+
+/// Follows a film from nothing, or from a click into each component.
+///
+/// # Errors
+/// Those of [`track`] and [`compare`].
+pub(super) fn follow(folder: &Path, plan: &Plan, from_clicks: bool) -> Result<Vec<Row>> {
+    let study = folder.join("study.toml");
+    let mut clicks = Vec::new();
+    for component in &Study::read_quietly(&study)?.components {
+        if let Some(masks) = component.masks.get("truth").filter(|_| from_clicks) {
+            clicks.extend(click(component, masks, plan.seed)?);
+        }
+    }
+    let out = folder.join("tracked");
+    let (begin, count) = (cpu_s(), clicks.len());
+    track(&Request {
+        study: study.clone(),
+        out: out.clone(),
+        clicks,
+        fixed: Vec::new(),
+        polarity: None,
+        interpolate: 0,
+        anew: true,
+        listener: Arc::new(|_| ()),
+        stop: Stop::default(),
+    })?;
+    let cpu_s = cpu_s().zip(begin).map(|(end, begin)| end - begin);
+    let row = |errors| Row {
+        seed: plan.seed,
+        disguise: plan.to_string(),
+        clicks: count,
+        cpu_s,
+        errors,
+    };
+    Ok(compare(&study, &out)?.into_iter().map(row).collect())
+}
+
+/// Processor time of this process so far, as Linux tells it.
+fn cpu_s() -> Option<f64> {
+    /// Clock ticks in a second, as the kernel tells them to programs.
+    const TICKS: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The program's name may hold blanks; numbers follow it, of which the 12th and 13th are the program's time and the system's for it.
+    let (_, numbers) = stat.rsplit_once(')')?;
+    let ticks = numbers
+        .split_whitespace()
+        .skip(11)
+        .take(2)
+        .map(str::parse::<f64>);
+    Some(ticks.sum::<Result<f64, _>>().ok()? / TICKS)
+}
