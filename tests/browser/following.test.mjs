@@ -68,12 +68,7 @@ async function twoClicks(page) {
   await card(page).getByText('Now the tibia').waitFor();
   // The femur is still being found, and tools outline what the card asks for.
   await page.keyboard.press('p');
-<<<<<<< HEAD
   await page.getByRole('radio', { name: 'Tibia', checked: true }).waitFor();
-=======
-  await drawn(page);
-  assert.equal(await page.getByRole('radio', { name: 'Tibia' }).getAttribute('aria-checked'), 'true');
->>>>>>> 277b6986 (Browser tests: a key's effect is looked for once it is drawn, and no test says how fast the page is)
   await page.keyboard.press('o');
   await stage.click(tracing.insideOf(await trueOutline('tibia', 1)));
   await card(page).getByRole('button', { name: 'Follow the film' }).waitFor();
