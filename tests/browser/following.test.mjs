@@ -1,6 +1,6 @@
 /** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
 import assert from 'node:assert/strict';
-import { atRest, drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline, truePose } from './support/study.mjs';
