@@ -51,6 +51,7 @@ pub use border::BorderPixel;
 pub use buffers::RefineBuffers;
 pub use effort::Effort;
 pub use error::RefineError;
+pub(crate) use fit::part_beyond;
 pub use fit::{Fit, MET_WITHIN_PX};
 pub use locks::Locks;
 pub use memory::{FILM_EVERY, RefineMemory};

@@ -289,8 +289,8 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     if fit.size_px < limits.good_size_px {
         return Some(Doubt::Small { px: fit.size_px });
     }
-    if fit.known < limits.good_known {
-        return Some(Doubt::Unknown { known: fit.known });
+    if fit.seen() < limits.good_known {
+        return Some(Doubt::Unknown { known: fit.seen() });
     }
     if fit.met < limits.good_met {
         return Some(Doubt::Unmet {

@@ -78,7 +78,7 @@ impl Cell {
     /// Takes a better pose of the frame.
     pub fn improve(&mut self, found: FramePose) {
         if let Some(looked) = &mut self.looked {
-            looked.known = found.fit.known;
+            looked.known = found.fit.seen();
             looked.found = Ok(found);
             looked.searched = true;
         }
@@ -98,7 +98,7 @@ impl From<&Anchor> for Cell {
                 found: Ok(anchor.found),
                 ordinary: true,
                 searched: false,
-                known: anchor.found.fit.known,
+                known: anchor.found.fit.seen(),
             }),
             fixed: anchor.fixed,
             other_way: None,

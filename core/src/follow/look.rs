@@ -8,7 +8,7 @@ use super::trail::{Trail, Usual, apart};
 use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, scale};
 use crate::pose::Pose;
-use crate::refine::{ImageTarget, RefineMemory};
+use crate::refine::{ImageTarget, RefineMemory, part_beyond};
 
 /// Ordinary poses have at most this many times the usual misfit and so many pixels more, and at least this part of the
 /// usual strength.
@@ -85,7 +85,8 @@ struct Search<'s> {
 
 impl Search<'_> {
     fn run(&self, missed: usize, memory: &mut RefineMemory<'_>) -> Looked {
-        let known = in_frame(self.subject, &self.expected.pose);
+        let Subject { model, camera, .. } = self.subject;
+        let known = 1.0 - part_beyond(model, camera, &self.expected.pose);
         if known < LEAST_KNOWN {
             return self.nothing(Missing::Outside, known);
         }
@@ -102,7 +103,7 @@ impl Search<'_> {
                     found: Ok(found),
                     ordinary: true,
                     searched: false,
-                    known: found.fit.known,
+                    known: found.fit.seen(),
                 };
             }
             first = self.better(first, found);
@@ -113,7 +114,7 @@ impl Search<'_> {
                 found: Ok(found),
                 ordinary: self.is_ordinary(&found),
                 searched: true,
-                known: found.fit.known,
+                known: found.fit.seen(),
             },
             None => self.nothing(Missing::Hidden, known),
         }
@@ -201,7 +202,7 @@ impl Search<'_> {
         found.misfit_px <= self.most_like(limits)
             && found.contrast.strength >= part * self.usual.strength
             && found.contrast.step >= LEAST_STEP * self.usual.step
-            && found.fit.known >= LEAST_KNOWN
+            && found.fit.seen() >= LEAST_KNOWN
     }
 
     fn most_like(&self, [times, more, _]: [f64; 3]) -> f64 {
@@ -222,21 +223,4 @@ pub(super) fn beside(pose: &Pose, middle: &Vector3, part: f64) -> [Pose; 6] {
         moved(part),
         moved(-part),
     ]
-}
-
-/// Part of the component's vertices whose image lies in the frame.
-fn in_frame(subject: &Subject<'_>, pose: &Pose) -> f64 {
-    let (vertices, camera) = (subject.model.vertices(), subject.camera);
-    let every = (vertices.len() / 256).max(1);
-    let (mut inside, mut all) = (0usize, 0usize);
-    for vertex in vertices.iter().step_by(every) {
-        all += 1;
-        let Some(place) = camera.project(&pose.transform(&vertex.map(f64::from))) else {
-            continue;
-        };
-        let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
-        inside +=
-            usize::from(within(place.column, camera.width()) && within(place.row, camera.height()));
-    }
-    inside as f64 / all.max(1) as f64
 }

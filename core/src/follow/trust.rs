@@ -371,7 +371,7 @@ impl Trust {
         self.weigh(apart, Distrust::Apart(px, usual.misfit_px));
         let met = found.fit.met;
         self.weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
-        let known = found.fit.known;
+        let known = found.fit.seen();
         self.weigh(limits.known / known.max(0.01), Distrust::Cut(known));
         if let Some(covariance) = &found.covariance {
             let deg = covariance.rotation_deg();

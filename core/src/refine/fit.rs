@@ -4,7 +4,9 @@ use super::border::{BorderPixel, Residual};
 use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, MaskError, Word, words_needed};
-use crate::math::{Vector3, sqrt};
+use crate::math::sqrt;
+use crate::mesh::Model;
+use crate::pose::Pose;
 
 /// A sample of the model's outline is met where the target's outline is nearer to it than this, pixels: three standard
 /// deviations of a hand that traces, whose jitter is 1 px.
@@ -13,9 +15,10 @@ pub const MET_WITHIN_PX: f64 = 3.0;
 /// How well the model's outline at a pose is met by what was seen. Of several views, of all of them together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fit {
-    /// Part of the model's outline, by length, of which the target says anything: the rest lies in unknown pixels or
-    /// beyond the frame's border.
+    /// Part of the model's outline within the frame, by length, of which the target says anything: the rest lies in unknown pixels.
     pub known: f64,
+    /// Part of the model beyond the frame's border, by its vertices.
+    pub beyond: f64,
     /// Part of what is known that the target's outline meets within [`MET_WITHIN_PX`].
     pub met: f64,
     /// Root mean square distance of what is met, pixels.
@@ -33,6 +36,34 @@ pub struct Fit {
     pub behind_mm: f64,
 }
 
+impl Fit {
+    /// Part of the whole outline, about, of which the target says anything.
+    #[must_use]
+    pub fn seen(&self) -> f64 {
+        self.known * (1.0 - self.beyond)
+    }
+}
+
+/// Vertices that are asked, about, whether they are in the frame.
+const ASKED: usize = 256;
+
+/// Part of a model's vertices whose image lies beyond the frame; `pose` is `camera_from_model`.
+pub(crate) fn part_beyond(model: &Model<'_>, camera: &Camera, pose: &Pose) -> f64 {
+    let vertices = model.vertices();
+    let every = (vertices.len() / ASKED).max(1);
+    let (mut beyond, mut all) = (0u32, 0u32);
+    for vertex in vertices.iter().step_by(every) {
+        let place = camera.project(&pose.transform(&vertex.map(f64::from)));
+        let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
+        let is_within = place.is_some_and(|place| {
+            within(place.column, camera.width()) && within(place.row, camera.height())
+        });
+        all += 1;
+        beyond += u32::from(!is_within);
+    }
+    f64::from(beyond) / f64::from(all.max(1))
+}
+
 /// Sums over samples and views.
 #[derive(Default)]
 pub(super) struct FitSums {
@@ -44,6 +75,7 @@ pub(super) struct FitSums {
     /// Pixels that differ; `None` once a view is a grey frame.
     unmatched: Unmatched,
     area: f64,
+    beyond: f64,
     views: f64,
     behind_mm: f64,
 }
@@ -84,9 +116,11 @@ impl FitSums {
         }
     }
 
-    /// `middle` is the model's, in that camera's frame, mm.
-    pub(super) fn add_place(&mut self, camera: &Camera, middle: &Vector3) {
+    /// `pose` is that of the model in the camera's frame.
+    pub(super) fn add_place(&mut self, model: &Model<'_>, camera: &Camera, pose: &Pose) {
+        let middle = pose.transform(&model.bounds().centre);
         self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
+        self.beyond += part_beyond(model, camera, pose);
     }
 
     /// `drawn` is the model as drawn in that view.
@@ -115,6 +149,7 @@ impl FitSums {
         let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
         Fit {
             known: part(self.known, self.length),
+            beyond: part(self.beyond, self.views),
             met: part(self.met, self.known),
             residual_px: sqrt(part(self.met_squares, self.met)),
             misfit_px: sqrt(part(self.squares, self.known)),

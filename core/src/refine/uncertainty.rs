@@ -151,7 +151,7 @@ pub(super) fn observe(
         });
         sums.add_samples(border, stage.range);
         sums.add_areas(&view.target, memory.drawn)?;
-        sums.add_place(view.camera, &seen.transform(&model.bounds().centre));
+        sums.add_place(model, view.camera, &seen);
     }
     Ok(sums.fit())
 }

@@ -40,7 +40,8 @@ impl Record for FramePose {
         }
         let fit = &self.fit;
         let apart = fit.apart_px.unwrap_or(f64::NAN);
-        numbers.extend([fit.known, fit.met, fit.residual_px, fit.misfit_px, apart]);
+        numbers.extend([fit.known, fit.beyond, fit.met]);
+        numbers.extend([fit.residual_px, fit.misfit_px, apart]);
         let contrast = &self.contrast;
         numbers.extend([fit.size_px, fit.behind_mm, self.misfit_px, contrast.step]);
         numbers.extend([contrast.strength, contrast.known]);
@@ -67,6 +68,7 @@ impl Record for FramePose {
         };
         let [
             known,
+            beyond,
             met,
             residual_px,
             misfit_px,
@@ -76,6 +78,7 @@ impl Record for FramePose {
         ] = reader.some()?;
         let fit = Fit {
             known,
+            beyond,
             met,
             residual_px,
             misfit_px,
