@@ -63,9 +63,6 @@ const BEFORE_CORRECTION: [usize; STAGES] = [5, 0, 3, 0];
 const WORTH_GOING_ON: f64 = 0.02;
 /// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
 const WITHOUT_GRAIN: f64 = 0.02;
-/// So often a step of polishing may be longer than the one before where an outline fits no better than a noisy one: there each drawing's
-/// pixels ask for another pose, some hundredths of a degree around, and more of them hardly tell more.
-const SWINGS: usize = 3;
 
 /// What was seen at a pose, in one place from the first drawing to the last: it is long.
 pub(super) struct Seen {
@@ -309,30 +306,23 @@ impl<'a> Problem<'a> {
             return Ok(());
         };
         let small = small * self.coarseness(state);
-        let is_inexact = self.is_outline() && state.residual_px > NOISE_PX;
-        let most_swings = if is_inexact { SWINGS } else { POLISHING };
         let mut next = *state;
-        let (mut fraction, mut last, mut swings) = (1.0, f64::INFINITY, 0);
+        let (mut fraction, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
             let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
                 break;
             };
             if step.size() > last {
                 fraction *= 0.6;
-                swings += 1;
             }
             last = step.size();
             let step = step.scaled(fraction);
-            next.converged = step.size() < small || swings >= most_swings;
+            next.converged = step.size() < small;
             if next.converged {
                 break;
             }
             next.pose = self.apply(&step, &next.pose);
             next.offset_px += fraction * more;
-            if self.is_known(&next.pose) {
-                *state = next;
-                return Ok(());
-            }
             self.pause().await;
             seen.samples = self.look(&mut seen.equations, &mut next, pass, memory)?;
         }

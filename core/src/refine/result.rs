@@ -21,8 +21,7 @@ pub struct Refined {
     /// Times the model was drawn.
     pub renders: usize,
     /// Whether the last step was below 0.001 degrees or 0.005 mm, or both together; on a grey frame,
-    /// a fiftieth of that; with [`super::Effort::Interactive`], twenty times as much. Or whether steps swung to and fro
-    /// about the pose of an outline that fits no better than they tell. Of a pose that its film corrected: whether
+    /// a fiftieth of that; with [`super::Effort::Interactive`], twenty times as much. Of a pose that its film corrected: whether
     /// the last step was small against what noise leaves open.
     pub converged: bool,
 }
