@@ -96,13 +96,16 @@ impl Settling {
         loop {
             let (step, phase) = match self.phase {
                 Phase::CrossWay => self.cross(cells, Phase::Sides),
-                Phase::Sides => (self.to_see(Rival::Mirrored, cells), Phase::Choose),
+                Phase::Sides => (self.frames_to_see(Rival::Mirrored, cells), Phase::Choose),
                 Phase::Choose => (Some(SettlingStep::Choose), Phase::GoOver),
                 Phase::GoOver => {
                     let runs = runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
                     (self.to_go_over(runs, cells), Phase::Elsewhere)
                 }
-                Phase::Elsewhere => (self.to_see(Rival::Elsewhere, cells), Phase::GoElsewhere),
+                Phase::Elsewhere => (
+                    self.frames_to_see(Rival::Elsewhere, cells),
+                    Phase::GoElsewhere,
+                ),
                 Phase::GoElsewhere => self.go_elsewhere(cells),
                 Phase::Keep => match self.keep_what_leaves_less(cells) {
                     true => (None, Phase::Sides),
@@ -184,7 +187,7 @@ impl Settling {
     }
 
     /// The frames to be seen from the other side, or from elsewhere: but for those that were, whose pose is as it was then.
-    fn to_see(&mut self, rival: Rival, cells: &[Cell]) -> Option<SettlingStep> {
+    fn frames_to_see(&mut self, rival: Rival, cells: &[Cell]) -> Option<SettlingStep> {
         let wanted: Vec<usize> = match rival {
             Rival::Mirrored => frames_for_sides(cells)
                 .filter(|frame| self.range.contains(frame))
