@@ -7,10 +7,10 @@ use std::process::{Command, Output};
 use fluoropose_phantom::sequence::{self, Options};
 
 /// The frames' names, in their order, and the same by letters, as commands took them once.
-const NAMES: [&str; 4] = ["f1.png", "f2.png", "f10.png", "f11.png"];
-const BY_LETTERS: [usize; 4] = [0, 2, 3, 1];
+const NAMES: [&str; 3] = ["f1.png", "f2.png", "f10.png"];
+const BY_LETTERS: [usize; 3] = [0, 2, 1];
 
-/// A study of four frames in a folder of its own.
+/// A study of three frames in a folder of its own.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
@@ -46,7 +46,7 @@ impl Folder {
     }
 
     /// A folder of the known poses, their rows in an order of the frames, with the table that says so.
-    fn poses(&self, name: &str, order: [usize; 4]) {
+    fn poses(&self, name: &str, order: [usize; 3]) {
         let folder = self.0.join(name);
         fs::create_dir_all(&folder).expect("a folder");
         let mut table = String::from("frame,component,state,verdict,because,file,frame_of_file\n");
@@ -82,7 +82,7 @@ impl Folder {
 #[test]
 fn poses_are_put_to_the_frames_that_their_table_names() {
     let folder = Folder::new("order");
-    folder.poses("right", [0, 1, 2, 3]);
+    folder.poses("right", [0, 1, 2]);
     folder.poses("letters", BY_LETTERS);
     let report = |poses: &str| {
         // The study's folder stands for its file.
@@ -104,7 +104,7 @@ fn poses_are_put_to_the_frames_that_their_table_names() {
 
     let table = folder
         .read("letters/track.csv")
-        .replace("f11.png", "f12.png");
+        .replace("f10.png", "f12.png");
     fs::write(folder.0.join("letters/track.csv"), table).expect("a table");
     for words in [
         &["report", "--study", ".", "--out", "o", "--poses", "letters"][..],

@@ -203,7 +203,7 @@ fn on_32_bits() -> Result<Said> {
     };
     let mut cargo = toolchain.cargo("test", &firmware::folder());
     cargo.args(["--package", "fluoropose", "--lib", "--features", "alloc"]);
-    native::tests(&mut cargo)
+    native::tests(&mut cargo, "boards")
 }
 
 fn missing(target: &str, why: &str) -> Missing {

@@ -55,7 +55,7 @@ pub(crate) fn run(since: Option<&str>) -> Result<Report> {
         });
         report.step("changed: tests of packages", || {
             announce(&rust.iter().cloned().collect::<Vec<_>>().join(", "));
-            native::tests(&mut cargo_test(&rust))
+            native::tests(&mut cargo_test(&rust), "changed")
         });
     }
     if python {

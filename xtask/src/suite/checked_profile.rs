@@ -10,15 +10,8 @@ use crate::setup::rust_target::own_cargo;
 use crate::setup::{command, components};
 use crate::workspace;
 
-/// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
-/// arithmetic and assertions are checked in them.
-pub(crate) const CHECKED: [&str; 5] = [
-    "--release",
-    "--config",
-    "profile.release.package.fluoropose.overflow-checks=true",
-    "--config",
-    "profile.release.package.fluoropose.debug-assertions=true",
-];
+/// The `release` profile as tests use it; the file says what is otherwise, and why. Every cargo of ours begins at the root, where it is found.
+pub(crate) const CHECKED: [&str; 3] = ["--release", "--config", ".cargo/checked.toml"];
 
 /// Cargo on the whole workspace, compiled by the linter: what one command has built the next finds.
 ///

@@ -67,5 +67,5 @@ fn tests(which: &[&str], names: &[&str], rules: &str, flags: Option<&str>) -> Re
     if let Some(flags) = flags {
         cargo.env("RUSTFLAGS", flags);
     }
-    native::tests(&mut cargo)
+    native::tests(&mut cargo, "miri")
 }

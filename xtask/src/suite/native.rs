@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::process::Command;
-use std::thread;
 
 use anyhow::{Result, ensure};
 
@@ -42,28 +41,42 @@ pub(crate) fn run(report: &mut Report) {
         let program = workspace::target_dir().join(name);
         quiet(Command::new(program).arg("--root").arg(workspace::root()))
     });
-    // Cargo runs one test program after the other, and many have one long test: what needs no more than the build goes beside them.
-    let beside = thread::scope(|scope| {
-        let lane = Lane {
-            name: "beside",
-            gives_way: output::lane().map_or(0, |lane| lane.gives_way),
-        };
-        let beside = scope.spawn(move || lane.work(beside_the_tests));
-        report.step("native: tests", || {
-            tests(&mut checked_profile::cargo("test", &["--no-fail-fast"])?)
-        });
-        beside.join()
+    // Cargo runs one test program after the other, and many have one long test: beside them goes all that needs no more than the build.
+    let gives_way = output::lane().map_or(0, |lane| lane.gives_way);
+    let lane = |name| Lane { name, gives_way };
+    report.side_by_side(&[
+        (lane("sources"), in_the_sources),
+        (lane("files"), in_files_of_their_own),
+        (lane("beside"), beside_the_tests),
+    ]);
+}
+
+/// Tests inside the sources that they test.
+fn in_the_sources(report: &mut Report) {
+    report.step("native: tests in the sources", || {
+        let which = ["--no-fail-fast", "--lib", "--bins"];
+        tests(&mut checked_profile::cargo("test", &which)?, "sources")
     });
-    match beside {
-        Ok(steps) => report.add(steps),
-        Err(panic) => std::panic::resume_unwind(panic),
-    }
+}
+
+/// Tests in folders of their own: most are long.
+fn in_files_of_their_own(report: &mut Report) {
+    report.step("native: tests in files of their own", || {
+        let which = ["--no-fail-fast", "--test", "*"];
+        tests(&mut checked_profile::cargo("test", &which)?, "files")
+    });
 }
 
 /// Steps that read what is built, and change nothing of it.
-fn beside_the_tests() -> Report {
-    let mut report = Report::new();
-    python::quick(&mut report);
+fn beside_the_tests(report: &mut Report) {
+    report.step("native: examples in the documentation", || {
+        let which = ["--no-fail-fast", "--doc"];
+        tests(
+            &mut checked_profile::cargo("test", &which)?,
+            "documentation",
+        )
+    });
+    python::quick(report);
     report.step("native: examples of the core", || {
         EXAMPLES.into_iter().try_for_each(|name| {
             // The tests built them.
@@ -73,7 +86,6 @@ fn beside_the_tests() -> Report {
         Ok(Said::default())
     });
     report.step("native: pages of the crates", pages_of_the_crates);
-    report
 }
 
 fn pages_of_the_crates() -> Result<Said> {
@@ -100,9 +112,9 @@ fn quiet(command: &mut Command) -> Result<Said> {
     Ok(command::run(command)?.into())
 }
 
-/// Runs `cargo test` and counts what it ran, and what of that found nothing to check.
-pub(crate) fn tests(cargo: &mut Command) -> Result<Said> {
-    let notes = workspace::target_dir().join("skipped-tests");
+/// Runs `cargo test` and counts what it ran, and what of that found nothing to check; `which` names the tests, of those that run at one time.
+pub(crate) fn tests(cargo: &mut Command, which: &str) -> Result<Said> {
+    let notes = workspace::target_dir().join(format!("skipped-tests-{which}"));
     // None is left from a run before.
     let _ = fs::remove_file(&notes);
     let (success, output) = command::tee(cargo.env("FLUOROPOSE_SKIPPED", &notes))?;

@@ -1,12 +1,13 @@
 //! What became of each step, summed up at the end.
 
 use std::fmt;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
 use super::counts::Counts;
-use crate::output::announce;
+use crate::output::{Lane, announce};
 use crate::setup::Missing;
 
 /// What became of a step, with a few words about it.
@@ -53,6 +54,9 @@ struct Line {
     outcome: Outcome,
     time: Duration,
 }
+
+/// Steps one after another, and the lane that they run in.
+pub(crate) type Steps = (Lane, fn(&mut Report));
 
 /// The steps so far.
 pub(crate) struct Report {
@@ -108,9 +112,28 @@ impl Report {
         });
     }
 
-    /// Takes over the steps of another lane, after those of this one.
-    pub(crate) fn add(&mut self, other: Self) {
-        self.lines.extend(other.lines);
+    /// Does rows of steps beside each other, each in its lane, and records them in the order of the rows.
+    pub(crate) fn side_by_side(&mut self, rows: &[Steps]) {
+        let rows = thread::scope(|scope| {
+            let begin = |&(lane, steps): &Steps| {
+                scope.spawn(move || {
+                    lane.work(|| {
+                        let mut report = Self::new();
+                        steps(&mut report);
+                        report
+                    })
+                })
+            };
+            let begun: Vec<_> = rows.iter().map(begin).collect();
+            let rows = begun.into_iter().map(thread::ScopedJoinHandle::join);
+            rows.collect::<Vec<_>>()
+        });
+        for row in rows {
+            match row {
+                Ok(row) => self.lines.extend(row.lines),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
     }
 
     fn outcome_of(&self, error: &anyhow::Error) -> Outcome {

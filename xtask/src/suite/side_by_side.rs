@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use super::report::Report;
+use super::report::{Report, Steps};
 use super::{browser, firmware, native};
 use crate::output::Lane;
 use crate::setup::{node, programs};
@@ -33,13 +33,10 @@ impl Chosen {
     }
 }
 
-/// A suite and the lane that it runs in.
-type Suite = (Lane, fn(&mut Report));
-
 /// Runs the suites, each in a lane of its own; the report has them in their order.
 pub(crate) fn run(chosen: Chosen) -> Report {
     let lane = |name, gives_way| Lane { name, gives_way };
-    let suites: [(bool, Suite); 3] = [
+    let suites: [(bool, Steps); 3] = [
         (chosen.native, (lane("native", 10), native::run)),
         // It is done long before the native suite, which nothing is to hold up.
         (chosen.firmware, (lane("firmware", 15), firmware::run)),
@@ -47,33 +44,16 @@ pub(crate) fn run(chosen: Chosen) -> Report {
         (chosen.browser, (lane("browser", 0), browser::run)),
     ];
     let suites = suites.into_iter().filter(|(chosen, _)| *chosen);
-    let suites: Vec<Suite> = suites.map(|(_, suite)| suite).collect();
+    let suites: Vec<Steps> = suites.map(|(_, suite)| suite).collect();
     let mut report = Report::new();
     match suites.as_slice() {
-        [] => return report,
-        [(_, run)] => {
-            run(&mut report);
-            return report;
-        }
-        _ => {}
+        [] => {}
+        [(_, run)] => run(&mut report),
+        several => thread::scope(|scope| {
+            scope.spawn(|| lane("fetch", 10).work(|| fetch(chosen)));
+            report.side_by_side(several);
+        }),
     }
-    thread::scope(|scope| {
-        scope.spawn(|| lane("fetch", 10).work(|| fetch(chosen)));
-        let run = |(lane, run): Suite| {
-            lane.work(|| {
-                let mut report = Report::new();
-                run(&mut report);
-                report
-            })
-        };
-        let lanes = suites.iter().map(|&suite| scope.spawn(move || run(suite)));
-        for lane in lanes.collect::<Vec<_>>() {
-            match lane.join() {
-                Ok(steps) => report.add(steps),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-    });
     report
 }
 
