@@ -1,7 +1,5 @@
 //! Words and a ruler, as a system burns them into its pictures.
 
-use super::picture::Picture;
-
 /// Letters of five columns and seven rows, a row a number: K, N, E, E, blank, L.
 const LETTERS: [[u8; 7]; 6] = [
     [
@@ -22,14 +20,13 @@ const LETTERS: [[u8; 7]; 6] = [
     ],
 ];
 
-/// White words in the corner left above, and a white ruler along the lower border.
-pub(super) fn burn_in(picture: &mut Picture) {
-    let (width, height) = (picture.width, picture.height);
+/// White words in the corner left above of intensities row by row, and a white ruler along the lower border.
+pub(super) fn burn_in(pixels: &mut [f64], (width, height): (usize, usize)) {
     // A dot of a letter is so many pixels wide.
     let dot = (width.min(height) / 256).max(1);
     let mut white = |column: usize, row: usize| {
         if column < width && row < height {
-            picture.pixels[row * width + column] = 1.0;
+            pixels[row * width + column] = 1.0;
         }
     };
     for (place, letter) in LETTERS.iter().enumerate() {

@@ -31,7 +31,8 @@ impl Picture {
         blur(&mut picture, plan.tone.blur_px);
         add_noise(&mut picture, plan, number);
         if plan.marks.words {
-            burn_in(&mut picture);
+            let size = (picture.width, picture.height);
+            burn_in(&mut picture.pixels, size);
         }
         picture
     }
