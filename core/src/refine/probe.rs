@@ -161,6 +161,7 @@ pub(super) const OWN_STEPS: i32 = steps_within(OWN_RANGE);
 mod tests {
     use super::*;
     use crate::image::mask::{MaskMut, Word, words_needed};
+    use core::cell::Cell;
     use proptest::prelude::*;
     use std::vec;
 
@@ -175,11 +176,19 @@ mod tests {
     fn naive(mask: &Mask<'_>, sample: &BorderPixel, range: f64) -> (Residual, f64, f64) {
         let [right, down] = sample.slope.map(f64::from);
         let length = libm::hypot(right, down);
+        let brink = Cell::new(f64::INFINITY);
         let coverage = |t: f64| {
             let column = f64::from(sample.column) + t * right / length;
             let row = f64::from(sample.row) + t * down / length;
-            let within = |x: f64, side: usize| x >= 0.0 && x < side as f64 - 1.0;
-            if !within(column, WIDTH) || !within(row, HEIGHT) {
+            let within = |x: f64, side: usize, moves: bool| {
+                let end = side as f64 - 1.0;
+                // What goes along it stays where it is; all else may be rounded over it.
+                if moves {
+                    brink.set(brink.get().min(x.abs()).min((end - x).abs()));
+                }
+                x >= 0.0 && x < end
+            };
+            if !within(column, WIDTH, right != 0.0) | !within(row, HEIGHT, down != 0.0) {
                 return None;
             }
             let (left, above) = (column as usize, row as usize);
@@ -192,10 +201,13 @@ mod tests {
         let Some(mut value) = coverage(0.0) else {
             return (Residual::Unknown, 1.0, 0.0);
         };
-        let (direction, mut nearest) = (if value >= 0.5 { 1.0 } else { -1.0 }, f64::INFINITY);
+        let (direction, mut nearest) = (if value >= 0.5 { 1.0 } else { -1.0 }, (value - 0.5).abs());
+        brink.set(f64::INFINITY);
         for step in 1..=(2.0 * range) as usize {
             let t = direction * step as f64 / 2.0;
-            let Some(next) = coverage(t) else {
+            let next = coverage(t);
+            nearest = nearest.min(brink.get());
+            let Some(next) = next else {
                 return (Residual::Unknown, nearest, 0.0);
             };
             nearest = nearest.min((next - 0.5).abs());
