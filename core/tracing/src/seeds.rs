@@ -357,6 +357,24 @@ mod tests {
         assert!(found.iter().take(4).any(near(middles[1])), "{found:?}");
     }
 
+    /// Places in a square picture of dark metal, of 50 mm at a metre.
+    fn places_in<const SIDE: usize>(shade: impl Fn(f64, f64) -> u8) -> Vec<Point, SEEDS> {
+        let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
+            .map(|k| shade((k % SIDE) as f64, (k / SIDE) as f64))
+            .collect();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+        let middle = SIDE as f64 / 2.0;
+        let camera = Camera::new(SIDE, SIDE, [900.0; 2], [middle; 2]).expect("valid");
+        let mut sums = std::vec![0.0; seeds_needed(&camera)];
+        let image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        seeds(&image, &camera, 50.0, &mut sums).expect("enough memory")
+    }
+
     /// Parts beyond the picture that are blacker than all metal, and as many as there are places, do not outvote it.
     #[test]
     fn a_grey_disc_is_given_among_many_that_are_clipped() {
@@ -371,19 +389,7 @@ mod tests {
                 () => 200,
             }
         };
-        let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
-            .map(|k| shade((k % SIDE) as f64, (k / SIDE) as f64))
-            .collect();
-        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-        let camera = Camera::new(SIDE, SIDE, [900.0; 2], [256.0; 2]).expect("valid");
-        let mut sums = std::vec![0.0; seeds_needed(&camera)];
-        let image = ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
-        let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        let found = places_in::<SIDE>(shade);
         let near = |at: &Point| libm::hypot(at.column - middle[0], at.row - middle[1]) < 14.0;
         assert!(found[..3].iter().any(near), "{found:?}");
         let clipped = |at: &&Point| shade(at.column, at.row) == 0;
@@ -396,20 +402,10 @@ mod tests {
         const SIDE: usize = 256;
         for middle in [[8.0, 120.0], [130.0, 249.0], [247.0, 9.0]] {
             let near = |column: f64, row: f64| libm::hypot(column - middle[0], row - middle[1]);
-            let shade = |k: usize| near((k % SIDE) as f64, (k / SIDE) as f64) < 14.0;
-            let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
-                .map(|k| if shade(k) { 90 } else { 180 })
-                .collect();
-            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-            let camera = Camera::new(SIDE, SIDE, [900.0; 2], [128.0; 2]).expect("valid");
-            let mut sums = std::vec![0.0; seeds_needed(&camera)];
-            let image = ImageTarget {
-                frame: &frame,
-                unknown: None,
-                polarity: Polarity::DarkImplant,
-                film: None,
-            };
-            let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+            let found = places_in::<SIDE>(|column, row| match near(column, row) < 14.0 {
+                true => 90,
+                false => 180,
+            });
             let is_near = |at: &Point| near(at.column, at.row) < 14.0;
             assert!(found.iter().any(is_near), "{middle:?}: {found:?}");
         }
