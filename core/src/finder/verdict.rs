@@ -329,4 +329,20 @@ mod tests {
         assert_eq!(judged(150.0), Verdict::Good);
         assert_eq!(judged(7.0), Verdict::Doubtful(Doubt::Small { px: 7.0 }));
     }
+
+    #[test]
+    fn what_lies_beyond_the_frame_is_not_known() {
+        let judged = |beyond: f64| {
+            let fit = Fit {
+                size_px: 150.0,
+                met: 1.0,
+                known: 0.8,
+                beyond,
+                ..Fit::default()
+            };
+            judge_fit(&fit, true, &Limits::USUAL)
+        };
+        assert_eq!(judged(0.2), Verdict::Good);
+        assert!(matches!(judged(0.5), Verdict::Doubtful(Doubt::Unknown { known }) if known == 0.4));
+    }
 }

@@ -162,3 +162,30 @@ impl FitSums {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of 20 mm a metre away, 20 pixels wide, moved to the right out of a frame of 100 pixels: whatever its pixels there show.
+    #[test]
+    fn half_of_what_stands_across_the_border_is_beyond() {
+        let grid = |k: usize| [(k % 20) as f32 - 9.5, (k / 20) as f32 - 9.5, 0.0];
+        let vertices: std::vec::Vec<[f32; 3]> = (0..400).map(grid).collect();
+        let model = Model::from_triangles(&vertices, &[[0, 1, 20]]).expect("a triangle");
+        let camera = Camera::new(100, 100, [1000.0; 2], [50.0; 2]).expect("valid");
+        for (right_mm, wanted) in [(0.0, 0.0), (50.0, 0.5), (55.0, 0.75), (80.0, 1.0)] {
+            let pose = Pose {
+                translation: [right_mm, 0.0, -1000.0],
+                ..Pose::IDENTITY
+            };
+            assert_eq!(part_beyond(&model, &camera, &pose), wanted, "{right_mm}");
+        }
+        let fit = Fit {
+            known: 0.6,
+            beyond: 0.5,
+            ..Fit::default()
+        };
+        assert_eq!(fit.seen(), 0.3);
+    }
+}
