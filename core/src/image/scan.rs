@@ -10,8 +10,8 @@ use core::ops::Range;
 use crate::image::contour::Point;
 
 /// Binary places of a fixed-point coordinate.
-const PLACES: u32 = 12;
-const ONE: i64 = 1 << PLACES;
+pub(crate) const PLACES: u32 = 12;
+pub(crate) const ONE: i64 = 1 << PLACES;
 const HALF: i64 = ONE / 2;
 
 /// How far rounding moves a coordinate at most, pixels.
@@ -80,6 +80,11 @@ impl FixedPoint {
     /// Column and row, pixels.
     pub(crate) fn place(self) -> [f32; 2] {
         [self.column, self.row].map(|value| value as f32 / ONE as f32)
+    }
+
+    /// Column and row in units of 1/4096 pixel: exact up to 4096 pixels.
+    pub(crate) fn units(self) -> [f32; 2] {
+        [self.column, self.row].map(|value| value as f32)
     }
 
     pub(crate) fn is_above(self, other: Self) -> bool {
@@ -178,16 +183,21 @@ pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
     [range(|corner| corner.column), range(|corner| corner.row)]
 }
 
-/// The pixels that a triangle has any part in, and those that rounding elsewhere, by up to a thousandth of a pixel, may put
-/// a place of it into.
-pub(crate) fn touched_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
+/// Least and greatest column and row of a triangle, in units of 1/4096 pixel, and what rounding elsewhere, by up to a thousandth of a pixel, may
+/// put a place of it into.
+#[inline(always)]
+pub(crate) fn touched([a, b, c]: &[FixedPoint; 3]) -> [[i32; 2]; 2] {
     const BESIDE: i32 = ONE as i32 / 1000 + 1;
-    let range = |of: fn(FixedPoint) -> i32| {
-        let [a, b, c] = corners.map(of);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        (low - BESIDE) >> PLACES..((high + BESIDE) >> PLACES) + 1
-    };
-    [range(|corner| corner.column), range(|corner| corner.row)]
+    [
+        [
+            a.column.min(b.column).min(c.column) - BESIDE,
+            a.row.min(b.row).min(c.row) - BESIDE,
+        ],
+        [
+            a.column.max(b.column).max(c.column) + BESIDE,
+            a.row.max(b.row).max(c.row) + BESIDE,
+        ],
+    ]
 }
 
 /// Calls `fill(row, from, to)` for each row of the triangle that has pixel centres: columns

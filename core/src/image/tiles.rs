@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use crate::image::scan::{FixedPoint, PLACES, touched};
+
 /// Tiles to a side.
 pub(crate) const TILES: usize = u128::BITS as usize;
 
@@ -61,25 +63,37 @@ impl Tiles {
     }
 
     /// The tiles that a box of columns and rows meets; `None` where it meets none with a pixel of the list.
-    pub(crate) fn under(&self, [columns, rows]: [Range<i32>; 2]) -> Option<[Range<usize>; 2]> {
-        if columns.is_empty() || rows.is_empty() {
+    pub(crate) fn under(&self, place: [Range<i32>; 2]) -> Option<[Range<usize>; 2]> {
+        let tiles = |place: Range<i32>, first: i32| {
+            let [low, high] =
+                [place.start, place.end - 1].map(|pixel| (pixel - first) >> self.places);
+            let is_met = low <= high && high >= 0 && low <= LAST;
+            is_met.then(|| low.max(0) as usize..high.min(LAST) as usize + 1)
+        };
+        let [columns, rows] = place;
+        let [columns, rows] = tiles(columns, self.column)
+            .zip(tiles(rows, self.row))
+            .map(<[_; 2]>::from)?;
+        let wanted = (u128::MAX >> (TILES - columns.len())) << columns.start;
+        let marked = self.marked.get(rows.clone()).unwrap_or_default();
+        let meets = marked.iter().any(|row| row & wanted != 0);
+        meets.then_some([columns, rows])
+    }
+
+    /// The tiles that the box of a triangle meets, marked or not, as columns and rows from one on and up to another; `None` where it lies
+    /// beside all of them.
+    #[inline(always)]
+    pub(crate) fn met(&self, corners: &[FixedPoint; 3]) -> Option<[[usize; 2]; 2]> {
+        let [low, high] = touched(corners);
+        let tile = |unit: i32, first: i32| ((unit >> PLACES) - first) >> self.places;
+        let [left, top] = [tile(low[0], self.column), tile(low[1], self.row)];
+        let [right, bottom] = [tile(high[0], self.column), tile(high[1], self.row)];
+        if (right < 0) | (bottom < 0) | (left > LAST) | (top > LAST) {
             return None;
         }
-        let tile = |pixel: i32, first: i32| (pixel - first) >> self.places;
-        let (left, right) = (
-            tile(columns.start, self.column),
-            tile(columns.end - 1, self.column),
-        );
-        let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
-        if right < 0 || bottom < 0 || left > LAST || top > LAST {
-            return None;
-        }
-        let (left, right) = (left.max(0) as usize, right.min(LAST) as usize);
-        let (top, bottom) = (top.max(0) as usize, bottom.min(LAST) as usize);
-        let wanted = (u128::MAX >> (TILES - 1 - (right - left))) << left;
-        let rows = self.marked.get(top..=bottom).unwrap_or_default();
-        let meets = rows.iter().any(|row| row & wanted != 0);
-        meets.then_some([left..right + 1, top..bottom + 1])
+        let from = |tile: i32| tile.max(0) as usize;
+        let to = |tile: i32| tile.min(LAST) as usize + 1;
+        Some([[from(left), to(right)], [from(top), to(bottom)]])
     }
 }
 

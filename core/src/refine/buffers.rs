@@ -7,7 +7,7 @@ use super::memory::RefineMemory;
 use super::places::places_needed;
 use super::view::CameraView;
 use crate::camera::Camera;
-use crate::film::lines::heads_needed;
+use crate::film::lines::{LineGroup, groups_needed, heads_needed};
 use crate::film::{LineMemory, PathLine};
 use crate::image::mask::{Word, words_needed};
 use crate::memory::grow;
@@ -28,6 +28,7 @@ pub struct RefineBuffers {
     border: Vec<BorderPixel>,
     lines: Vec<PathLine>,
     heads: Vec<u16>,
+    groups: Vec<LineGroup>,
 }
 
 impl RefineBuffers {
@@ -53,6 +54,7 @@ impl RefineBuffers {
         grow(&mut self.border, BORDER);
         grow(&mut self.lines, LINES);
         grow(&mut self.heads, heads_needed());
+        grow(&mut self.groups, groups_needed(LINES));
     }
 
     fn all(&mut self) -> RefineMemory<'_> {
@@ -64,6 +66,7 @@ impl RefineBuffers {
             film: LineMemory {
                 lines: &mut self.lines,
                 heads: &mut self.heads,
+                groups: &mut self.groups,
             },
         }
     }

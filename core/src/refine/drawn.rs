@@ -45,7 +45,15 @@ impl<'l> DrawnEdges<'l> {
             let across = PathLine::at(sample.place(), sample.normal().map(f64::from));
             *line = across.starting_at(first_place);
         }
-        measure(model, view.camera, pose, scratch, lines, memory.heads)?;
+        measure(
+            model,
+            view.camera,
+            pose,
+            scratch,
+            lines,
+            memory.heads,
+            memory.groups,
+        )?;
         for (line, sample) in lines.iter().zip(border) {
             if let Some(depths) = line.depths() {
                 depths

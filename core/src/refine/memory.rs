@@ -23,8 +23,9 @@ pub struct RefineMemory<'a> {
     /// the model is. No more than 65 535 are used.
     pub border: &'a mut [BorderPixel],
     /// For targets with a film model: one line for each [`FILM_EVERY`] border pixels, or for every third, by which poses are
-    /// corrected where there is room for as many, and
-    /// [`crate::film::lines::heads_needed`] heads of lists.
+    /// corrected where there is room for as many, with
+    /// [`crate::film::lines::heads_needed`] heads of lists and
+    /// [`crate::film::lines::groups_needed`] groups of lines.
     pub film: LineMemory<'a>,
 }
 

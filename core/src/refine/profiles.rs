@@ -45,7 +45,15 @@ pub fn film_profiles(
     for (line, sample) in lines.iter_mut().zip(&*border) {
         *line = PathLine::at(sample.place(), sample.normal().map(f64::from));
     }
-    measure(model, camera, pose, projected, lines, film.heads)?;
+    measure(
+        model,
+        camera,
+        pose,
+        projected,
+        lines,
+        film.heads,
+        film.groups,
+    )?;
     let every = border.len().div_ceil(profiles.len().max(1)).max(1);
     let mut count = 0;
     for (line, sample) in lines.iter().zip(border).step_by(every) {

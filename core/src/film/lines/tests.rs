@@ -17,7 +17,17 @@ fn camera() -> Camera {
 fn measured(model: &Model<'_>, pose: &Pose, lines: &mut [PathLine]) {
     let mut scratch = vec![Projected::default(); scratch_needed(model)];
     let mut heads = vec![0; heads_needed()];
-    measure(model, &camera(), pose, &mut scratch, lines, &mut heads).expect("in front");
+    let mut groups = vec![LineGroup::default(); groups_needed(lines.len())];
+    measure(
+        model,
+        &camera(),
+        pose,
+        &mut scratch,
+        lines,
+        &mut heads,
+        &mut groups,
+    )
+    .expect("in front");
 }
 
 /// Place and ray of each point of a line, the ray with depth 1.

@@ -84,6 +84,7 @@ impl OneClickMemory<'_> {
                 film: LineMemory {
                     lines: &mut *self.refine.film.lines,
                     heads: &mut *self.refine.film.heads,
+                    groups: &mut *self.refine.film.groups,
                 },
             },
         })
