@@ -257,21 +257,23 @@ impl Fit<'_> {
                 sums.cost += weight * off * off / 2.0;
             }
         }
-        if self.hold {
-            sums.hold(CURVATURE);
-        } else {
-            sums.normal[CURVATURE][CURVATURE] += 1e-3;
-        }
-        if self.given.blur_px.is_some() {
-            sums.hold(BLUR);
-        }
-        if !self.sharpened {
-            sums.hold(AMOUNT);
-            sums.hold(RADIUS);
+        sums.normal[CURVATURE][CURVATURE] += 1e-3;
+        for unknown in (0..UNKNOWNS).filter(|&unknown| self.is_held(unknown)) {
+            sums.hold(unknown);
         }
     }
 
-    /// A profile explained, and, where it is `wanted`, how its residuals change with each unknown that it depends on.
+    /// Whether an unknown stays as it is.
+    fn is_held(&self, unknown: usize) -> bool {
+        match unknown {
+            CURVATURE => self.hold,
+            BLUR => self.given.blur_px.is_some(),
+            AMOUNT | RADIUS => !self.sharpened,
+            _ => false,
+        }
+    }
+
+    /// A profile explained, and, where it is `wanted`, how its residuals change with each unknown that it depends on and that is not held.
     pub(super) fn explained(
         &self,
         profile: &FilmProfile,
@@ -284,6 +286,9 @@ impl Fit<'_> {
         let mut slopes = [[0.0; READINGS]; OF_A_PROFILE];
         if wanted {
             for (slopes, number) in slopes.iter_mut().zip(self.of_profile(profile)) {
+                if self.is_held(number) {
+                    continue;
+                }
                 let mut near = *at;
                 near[number] += CHANGE;
                 let drawn = self.drawn(profile, &near);
