@@ -2,16 +2,13 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::{Mask, MaskMut, Word};
-use fluoropose_tracing::morphology::widen;
+use fluoropose_tracing::beside;
 use wasm_bindgen::JsError;
 
 use fluoropose_page::error::sentence;
 use fluoropose_page::traced::{filled, points_of};
 
-/// Round the other component, pixels: its edges are as wide as the detector's blur.
-pub(crate) const MARGIN: usize = 4;
-
-/// Sets the pixels inside an outline (columns and rows by turns), and some round it: another component's.
+/// Sets the pixels inside an outline (columns and rows by turns), and what its edges reach beyond it: another component's.
 ///
 /// # Errors
 /// The core's sentence about the outline.
@@ -20,7 +17,7 @@ pub(crate) fn hide(outline: &[f64], camera: &Camera, hidden: &mut [Word]) -> Res
     let words = filled(&points_of(outline), width, height)?;
     let inside = Mask::new(&words, width, height).map_err(sentence)?;
     let mut hidden = MaskMut::new(hidden, width, height).map_err(sentence)?;
-    widen(&inside, MARGIN, &mut hidden);
+    beside::hide(&inside, &mut hidden);
     Ok(())
 }
 

@@ -83,6 +83,7 @@ pub mod costs;
 pub mod follow;
 pub mod wire;
 
+pub mod beside;
 pub mod one_click;
 pub mod seeds;
 pub mod whole_frame;

@@ -8,10 +8,9 @@ use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent};
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose_tracing::morphology::widen;
+use fluoropose_tracing::beside;
 use wasm_bindgen::JsError;
 
-use crate::hidden::MARGIN;
 use fluoropose_page::error::sentence;
 
 /// The other component.
@@ -74,7 +73,7 @@ impl Other {
         let mut mask = MaskMut::new(&mut drawn, width, height).map_err(sentence)?;
         render(&model, camera, &pose, &mut self.projected, &mut mask).map_err(sentence)?;
         let mut wide = MaskMut::new(&mut hidden, width, height).map_err(sentence)?;
-        widen(&mask.as_mask(), MARGIN, &mut wide);
+        beside::hide(&mask.as_mask(), &mut wide);
         Ok(Beside {
             pose,
             middle: pose.transform(&model.bounds().centre),

@@ -6,13 +6,12 @@ use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions, Refined};
-use fluoropose_tracing::morphology::widen;
+use fluoropose_tracing::beside;
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
 use crate::film::film_model;
 use crate::found::Uncertainty;
-use crate::hidden::MARGIN;
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -133,7 +132,7 @@ impl HiddenPixels {
         let drawn = model.drawn_at(&pose, &self.camera)?;
         let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
         let mut hidden = MaskMut::new(&mut self.words, width, height).map_err(sentence)?;
-        widen(&drawn, MARGIN, &mut hidden);
+        beside::hide(&drawn, &mut hidden);
         Ok(())
     }
 
@@ -310,25 +309,4 @@ pub(super) fn model_of(model: &mut Option<WorkingModel>) -> Result<&mut WorkingM
     model.as_mut().ok_or_else(|| {
         JsError::new("Refining a pose needs the model, not only its library: open it too")
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pixel_widens_to_a_square_that_the_frame_cuts_off() {
-        let (width, height) = (40, 20);
-        let mut words = vec![0; words_needed(width, height)];
-        MaskMut::new(&mut words, width, height)
-            .unwrap()
-            .set(20, 1, true);
-        let mask = Mask::new(&words, width, height).unwrap();
-        let mut wide = vec![0; words_needed(width, height)];
-        let mut wide = MaskMut::new(&mut wide, width, height).unwrap();
-        widen(&mask, MARGIN, &mut wide);
-        // Nine columns; rows 0 to 5.
-        assert_eq!(wide.as_mask().area(), 9 * 6);
-        assert!(wide.as_mask().get(16, 5) && !wide.as_mask().get(15, 5));
-    }
 }

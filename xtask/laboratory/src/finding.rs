@@ -1,6 +1,7 @@
 //! From what is seen to the poses that explain it, with the memory that the core borrows.
 
 mod axes;
+mod beside;
 pub mod biplane;
 mod build;
 mod clicker;
@@ -15,6 +16,7 @@ mod tools;
 mod views;
 
 pub use axes::axes_of;
+pub use beside::{Beside, covered, hidden};
 pub use build::{Built, build_library, build_views};
 pub use clicker::{Clicked, Clicker};
 pub use film::{FrameFound, find_poses, first_poses};

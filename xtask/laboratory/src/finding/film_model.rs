@@ -10,14 +10,15 @@ use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
-    CameraView, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
+    CameraView, ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
 };
 use rayon::prelude::*;
 
+use super::beside::{Beside, hidden};
 use super::film::FrameFound;
 use super::finder::{EdgeOptions, image};
 use super::misfits::Misfits;
-use crate::files::StatedFilm;
+use crate::files::{MaskBuffer, StatedFilm};
 use crate::options::{Shown, most};
 use crate::sequence::{Seen, Sequence};
 
@@ -83,13 +84,14 @@ pub fn bring_onto_frames(parts: &mut [Filmed<'_>], stated: &Stated) -> KnownFilm
         *part.found = part.brought(*film);
     }
     for _ in 1..ROUNDS {
-        if matches!(stated, Stated::Whole(..)) {
+        if matches!(stated, Stated::Whole(..)) && parts.len() < 2 {
             break;
         }
         known = film_of(parts, stated);
-        for (part, film) in parts.iter_mut().zip(&known.models) {
+        let beside = beside_each(parts);
+        for ((part, film), beside) in parts.iter_mut().zip(&known.models).zip(&beside) {
             if let Some(film) = film {
-                part.correct(*film);
+                part.correct(*film, beside);
             }
         }
     }
@@ -109,6 +111,43 @@ fn tell_polarity(parts: &mut [Filmed<'_>]) {
     }
 }
 
+/// Of each component the others, where they seem to be by now.
+fn beside_each<'f>(parts: &[Filmed<'f>]) -> Vec<Vec<Beside<'f>>> {
+    let beside = |part: &Filmed<'f>| Beside {
+        model: part.model,
+        poses: part
+            .found
+            .iter()
+            .map(|found| Some(found.candidates.first()?.pose))
+            .collect(),
+    };
+    let all: Vec<Beside<'f>> = parts.iter().map(beside).collect();
+    let others = |number: usize| {
+        let others = all.iter().enumerate().filter(|(other, _)| *other != number);
+        others.map(|(_, beside)| beside.clone()).collect()
+    };
+    (0..parts.len()).map(others).collect()
+}
+
+/// Calls `look` with a frame in which the components beside the one that is looked at are hidden.
+fn look_beside<T>(
+    sequence: &Sequence<'_>,
+    frame: usize,
+    beside: &[Beside<'_>],
+    (edges, film): (EdgeOptions, FilmModel),
+    look: impl FnOnce(ImageTarget<'_>) -> Result<T>,
+) -> Result<T> {
+    sequence.look(frame, |seen| {
+        let unknown = seen.silhouette.unknown();
+        let hidden = hidden(beside, &sequence.camera(), frame, unknown)?;
+        let unknown = hidden.as_ref().map(MaskBuffer::mask);
+        look(ImageTarget {
+            unknown: unknown.as_ref(),
+            ..image(seen, edges, Some(film))?
+        })
+    })
+}
+
 /// Looks around poses that leave more than is usual on their film.
 fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
     let best = |found: &FrameFound| Some(found.candidates.first()?.misfit());
@@ -118,6 +157,7 @@ fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
             .map(|part| part.found.iter().map(best).collect())
             .collect(),
     );
+    let beside = beside_each(parts);
     for (number, (part, film)) in parts.iter_mut().zip(&known.models).enumerate() {
         let symmetric = is_nearly_symmetric(&part.model, &symmetry_planes(part.model.mesh()));
         let beyond = |frame: usize| {
@@ -125,7 +165,7 @@ fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
             misfits.beside(number, frame).look_beyond(px, symmetric)
         };
         if let Some(film) = film {
-            part.look_around(*film, &beyond);
+            part.look_around(*film, &beside[number], &beyond);
         }
     }
 }
@@ -289,7 +329,7 @@ impl Filmed<'_> {
 
     /// Corrects all poses by the film's model, which has become better known. A frame that cannot be corrected stays as it is,
     /// and says so on standard error.
-    fn correct(&mut self, film: FilmModel) {
+    fn correct(&mut self, film: FilmModel, beside: &[Beside<'_>]) {
         let (camera, options) = (self.sequence.camera(), self.options());
         let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
         let planes = symmetry_planes(model.mesh());
@@ -297,8 +337,7 @@ impl Filmed<'_> {
             if found.candidates.is_empty() {
                 return;
             }
-            let corrected = sequence.look(frame, |seen| {
-                let image = image(seen, edges, Some(film))?;
+            let corrected = look_beside(sequence, frame, beside, (edges, film), |image| {
                 let mut memory = buffers.borrow(model, &camera);
                 let candidates = &found.candidates;
                 let seen = (&camera, image);
@@ -321,7 +360,12 @@ impl Filmed<'_> {
     }
 
     /// Looks around the poses of frames for which `beyond` gives when the search may end.
-    fn look_around(&mut self, film: FilmModel, beyond: &(impl Fn(usize) -> Option<f64> + Sync)) {
+    fn look_around(
+        &mut self,
+        film: FilmModel,
+        beside: &[Beside<'_>],
+        beyond: &(impl Fn(usize) -> Option<f64> + Sync),
+    ) {
         let (camera, options) = (self.sequence.camera(), self.options());
         let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
         let planes = symmetry_planes(model.mesh());
@@ -329,8 +373,8 @@ impl Filmed<'_> {
             let Some(limit_px) = beyond(frame) else {
                 return;
             };
-            let around = sequence.look(frame, |seen| {
-                let seen = (&camera, image(seen, edges, Some(film))?);
+            let around = look_beside(sequence, frame, beside, (edges, film), |image| {
+                let seen = (&camera, image);
                 let how = (options, limit_px);
                 let mut memory = buffers.borrow(model, &camera);
                 let candidates = &found.candidates;

@@ -14,23 +14,18 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
-use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose_tracing::morphology::widen;
 use rayon::prelude::*;
 
 use super::request::{Listener, Told};
 use crate::files::{
     Component, Film, MaskBuffer, Role, grey, other_shape, read_model_and_remarks_of,
 };
-use crate::finding::{Built, ViewOptions, axes_of, build_library};
+use crate::finding::{Built, ViewOptions, axes_of, build_library, covered};
 use crate::options::Pair;
 
 /// Distances of libraries where nobody tells it, in usual ones.
 const FARTHER: f64 = 1.3;
 const NEARER: f64 = 0.75;
-
-/// Round another component, pixels: its edges are as wide as the detector's blur.
-const MARGIN: usize = 4;
 
 /// A component that is followed.
 pub(super) struct Part<'s> {
@@ -234,15 +229,7 @@ impl<'s> Part<'s> {
     /// # Errors
     /// For a pose that cannot be drawn.
     pub(super) fn silhouette(&self, pose: &Pose) -> Result<MaskBuffer> {
-        let (width, height) = (self.camera.width(), self.camera.height());
-        let (mut drawn, mut wide) = (
-            MaskBuffer::new(width, height)?,
-            MaskBuffer::new(width, height)?,
-        );
-        let mut scratch = vec![Projected::default(); scratch_needed(&self.mesh)];
-        drawn.draw(|mask| render(&self.mesh, &self.camera, pose, &mut scratch, mask))?;
-        wide.draw(|wide| widen(&drawn.mask(), MARGIN, wide));
-        Ok(wide)
+        covered(&self.mesh, &self.camera, pose)
     }
 
     /// Calls `work` with a frame of the film, and with memory that is used again.

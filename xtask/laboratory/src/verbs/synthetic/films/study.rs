@@ -8,6 +8,7 @@ use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::choice::{ChoiceContext, Counterpart};
 use fluoropose::finder::{Candidate, correct_candidates, look_around};
+use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles};
@@ -16,7 +17,9 @@ use rayon::prelude::*;
 use super::draw::Film;
 use super::outcome::{Outcome, chosen};
 use super::trial::{Attempt, FilmWay};
+use crate::files::MaskBuffer;
 use crate::finding::misfits::Misfits;
+use crate::finding::{Beside, hidden};
 
 /// Rounds of estimating the constants and correcting poses by them.
 const ROUNDS: usize = 2;
@@ -29,17 +32,22 @@ pub(super) struct Study<'s> {
     pub(super) attempts: Vec<[Attempt; 2]>,
 }
 
-impl Study<'_> {
+impl<'s> Study<'s> {
     /// What comes of each film, by component, once poses are corrected.
     ///
     /// # Errors
     /// For a film of another size.
     pub(super) fn outcomes(mut self, way: FilmWay) -> Result<Vec<[Outcome; 2]>> {
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let known = known_films(&self.profiles(way)?, way);
-            self.correct(&known)?;
+            // Where the other component is, is known once it was on the film itself.
+            let beside = match round {
+                0 => [Vec::new(), Vec::new()],
+                _ => self.beside_each(),
+            };
+            self.correct(&known, &beside)?;
             if way.is_found() {
-                self.look_around(&known)?;
+                self.look_around(&known, &beside)?;
             }
         }
         let middles = self.models.map(|model| model.bounds().centre);
@@ -70,6 +78,18 @@ impl Study<'_> {
         chosen(&tibia.candidates, &context).map(|(tibia, _)| tibia)
     }
 
+    /// Beside each component the other one, where it is chosen.
+    fn beside_each(&self) -> [Vec<Beside<'s>>; 2] {
+        let frames = 0..self.films.len();
+        [1, 0].map(|other| {
+            let pose = |frame| Some(self.chosen(frame, other)?.pose);
+            vec![Beside {
+                model: self.models[other],
+                poses: frames.clone().map(pose).collect(),
+            }]
+        })
+    }
+
     fn misfits(&self) -> Misfits {
         let misfit = |frame: usize, part: usize| Some(self.chosen(frame, part)?.misfit());
         let frames = 0..self.films.len();
@@ -81,7 +101,11 @@ impl Study<'_> {
     }
 
     /// Looks around poses that leave more than is usual on their film.
-    fn look_around(&mut self, known: &[[Option<FilmModel>; 2]]) -> Result<()> {
+    fn look_around(
+        &mut self,
+        known: &[[Option<FilmModel>; 2]],
+        beside: &[Vec<Beside<'_>>; 2],
+    ) -> Result<()> {
         let (misfits, camera) = (self.misfits(), self.camera);
         let parts = self
             .models
@@ -93,12 +117,14 @@ impl Study<'_> {
                 let attempt = &mut attempts[part];
                 let misfit = misfits.0[part][frame];
                 let symmetric = is_nearly_symmetric(model, planes);
-                let beside = misfits.beside(part, frame);
-                let limit = misfit.and_then(|px| beside.look_beyond(px, symmetric));
+                let unusual = misfits.beside(part, frame);
+                let limit = misfit.and_then(|px| unusual.look_beyond(px, symmetric));
                 let (Some(limit), Some(film)) = (limit, known[frame][part]) else {
                     continue;
                 };
-                let seen = (&camera, image(&pixels, Some(film)));
+                let hidden = hidden(&beside[part], &camera, frame, None)?;
+                let hidden = hidden.as_ref().map(MaskBuffer::mask);
+                let seen = (&camera, image(&pixels, hidden.as_ref(), Some(film)));
                 let how = (RefineOptions::default(), limit);
                 let mut memory = buffers.borrow(model, &camera);
                 let candidates = &attempt.candidates;
@@ -122,7 +148,7 @@ impl Study<'_> {
         };
         let read = |buffers: &mut RefineBuffers, (number, film): (usize, &Film)| {
             let frame = film.frame(&self.camera)?;
-            let image = image(&frame, None);
+            let image = image(&frame, None, None);
             Ok([0, 1].map(|part| {
                 let Some(Candidate { pose, .. }) = self.chosen(number, part) else {
                     return Vec::new();
@@ -142,16 +168,25 @@ impl Study<'_> {
     }
 
     /// Corrects all poses by what is known of the film.
-    fn correct(&mut self, known: &[[Option<FilmModel>; 2]]) -> Result<()> {
+    fn correct(
+        &mut self,
+        known: &[[Option<FilmModel>; 2]],
+        beside: &[Vec<Beside<'_>>; 2],
+    ) -> Result<()> {
         let camera = self.camera;
         let parts = self
             .models
             .map(|model| (model, symmetry_planes(model.mesh())));
-        let correct = |buffers: &mut RefineBuffers, (film, (attempts, known)): (&Film, Of<'_>)| {
+        let correct = |buffers: &mut RefineBuffers,
+                       (number, (film, of)): (usize, (&Film, Of<'_>))| {
             let frame = film.frame(&camera)?;
-            for (((model, planes), attempt), known) in parts.iter().zip(attempts).zip(known) {
+            let (attempts, known) = of;
+            let each = parts.iter().zip(attempts).zip(known).zip(beside);
+            for ((((model, planes), attempt), known), beside) in each {
                 let begin = Instant::now();
-                let image = image(&frame, *known);
+                let hidden = hidden(beside, &camera, number, None)?;
+                let hidden = hidden.as_ref().map(MaskBuffer::mask);
+                let image = image(&frame, hidden.as_ref(), *known);
                 let mut memory = buffers.borrow(model, &camera);
                 let (candidates, options) = (&attempt.candidates, RefineOptions::default());
                 if known.is_none() || candidates.is_empty() {
@@ -168,7 +203,7 @@ impl Study<'_> {
             Ok(())
         };
         let of = self.attempts.par_iter_mut().zip(known);
-        let films = self.films.par_iter().zip(of);
+        let films = self.films.par_iter().zip(of).enumerate();
         films
             .map_init(RefineBuffers::default, correct)
             .collect::<Result<()>>()
@@ -190,11 +225,12 @@ fn with_femur(counterpart: Option<Counterpart>) -> ChoiceContext<'static> {
 
 fn image<'a>(
     frame: &'a fluoropose::image::frame::Frame<'a, u8>,
+    unknown: Option<&'a Mask<'a>>,
     film: Option<FilmModel>,
 ) -> ImageTarget<'a> {
     ImageTarget {
         frame,
-        unknown: None,
+        unknown,
         polarity: Polarity::DarkImplant,
         film,
     }
