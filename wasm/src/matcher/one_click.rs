@@ -103,7 +103,7 @@ impl OneClick {
     }
 
     /// Leaves out the pixels inside an outline (columns and rows by turns), and some round it: another component's, whose edges
-    /// are as wide as the film's blur.
+    /// are as wide as the film's blur. Where a model is looked for, only where its edges lie on a known film.
     ///
     /// # Errors
     /// The core's sentence about the outline.
@@ -165,19 +165,19 @@ impl OneClick {
             let mut memory = self
                 .buffers
                 .borrow(&work.needs(&self.camera), workspace, refine);
-            let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
+            let (camera, polarity) = (&self.camera, self.polarity);
             let more = self.film.look(|frame| {
-                with_mask(excluded.as_deref(), camera, |excluded| {
-                    let observation = Observation {
-                        frame,
-                        camera,
-                        polarity,
-                        excluded,
-                        film: self.known,
-                    };
-                    work.step(&observation, Some(component), &mut memory)
-                        .map_err(sentence)
-                })
+                let observation = Observation {
+                    frame,
+                    camera,
+                    polarity,
+                    // Without what the other component covers a silhouette over which that lies would have a gap. Its edges are left out
+                    // where the film is known.
+                    excluded: None,
+                    film: self.known,
+                };
+                work.step(&observation, Some(component), &mut memory)
+                    .map_err(sentence)
             });
             self.work = Some(work);
             more
