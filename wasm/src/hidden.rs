@@ -16,7 +16,7 @@ pub(crate) fn hide(outline: &[f64], camera: &Camera, hidden: &mut [Word]) -> Res
     let (width, height) = (camera.width(), camera.height());
     let words = filled(&points_of(outline), width, height)?;
     let inside = Mask::new(&words, width, height).map_err(sentence)?;
-    let mut hidden = MaskMut::new(hidden, width, height).map_err(sentence)?;
+    let mut hidden = MaskMut::onto(hidden, width, height).map_err(sentence)?;
     beside::hide(&inside, &mut hidden);
     Ok(())
 }
@@ -30,4 +30,23 @@ pub(crate) fn with_mask<T>(
     let mask = words.map(|words| Mask::new(words, camera.width(), camera.height()));
     let mask = mask.transpose().map_err(sentence)?;
     with(mask.as_ref())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::image::mask::words_needed;
+
+    #[test]
+    fn what_was_hidden_before_stays_hidden() {
+        let camera = Camera::from_principal_distance(64, 64, 1000.0, 0.5, [0.0; 2]).unwrap();
+        let mut words = vec![0; words_needed(64, 64)];
+        let square = |x: f64| [x, 20.0, x + 6.0, 20.0, x + 6.0, 26.0, x, 26.0];
+        for x in [10.0, 40.0] {
+            assert!(hide(&square(x), &camera, &mut words).is_ok());
+        }
+        // Six pixels, and four to each side of them.
+        let hidden = Mask::new(&words, 64, 64).unwrap();
+        assert_eq!(hidden.area(), 2 * 14 * 14);
+    }
 }

@@ -31,7 +31,7 @@ mod tests {
         };
         let drawn = mask(&[[20, 1]]);
         let mut hidden = mask(&[[3, 15]]);
-        let mut hidden = MaskMut::new(&mut hidden, width, height).expect("valid");
+        let mut hidden = MaskMut::onto(&mut hidden, width, height).expect("valid");
         hide(
             &Mask::new(&drawn, width, height).expect("valid"),
             &mut hidden,

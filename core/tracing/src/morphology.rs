@@ -26,13 +26,10 @@ impl Neighbours {
 /// Sets in `wide` every pixel within `by` columns and rows of one that is set in `mask`; others stay as they are.
 pub fn widen(mask: &Mask<'_>, by: usize, wide: &mut MaskMut<'_>) {
     for row in 0..mask.height() {
+        let rows = row.saturating_sub(by)..(row + by + 1).min(mask.height());
         for run in mask.runs(row) {
-            let columns = run.start.saturating_sub(by)..(run.end + by).min(mask.width());
-            for row in row.saturating_sub(by)..(row + by + 1).min(mask.height()) {
-                columns
-                    .clone()
-                    .for_each(|column| wide.set(column, row, true));
-            }
+            let (from, to) = (run.start as i64 - by as i64, (run.end + by) as i64);
+            rows.clone().for_each(|row| wide.fill_span(row, from, to));
         }
     }
 }

@@ -131,7 +131,7 @@ impl HiddenPixels {
         let model = model_of(&mut other.model)?;
         let drawn = model.drawn_at(&pose, &self.camera)?;
         let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
-        let mut hidden = MaskMut::new(&mut self.words, width, height).map_err(sentence)?;
+        let mut hidden = MaskMut::onto(&mut self.words, width, height).map_err(sentence)?;
         beside::hide(&drawn, &mut hidden);
         Ok(())
     }

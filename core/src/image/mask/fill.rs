@@ -32,6 +32,20 @@ impl<'a> MaskMut<'a> {
         })
     }
 
+    /// A mask that goes on from what `words` hold.
+    ///
+    /// # Errors
+    /// Those of [`Mask::new`].
+    pub fn onto(words: &'a mut [Word], width: usize, height: usize) -> Result<Self, MaskError> {
+        Mask::new(words, width, height)?;
+        let words = first("words", checked_words(width, height)?, words)?;
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
     /// What has been drawn.
     #[must_use]
     pub fn as_mask(&self) -> Mask<'_> {

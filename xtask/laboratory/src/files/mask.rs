@@ -94,6 +94,13 @@ impl MaskBuffer {
         draw(&mut mask)
     }
 
+    /// The same, but what was drawn before stays.
+    pub fn draw_onto<T>(&mut self, draw: impl FnOnce(&mut MaskMut<'_>) -> T) -> T {
+        let mut mask = MaskMut::onto(&mut self.words, self.width, self.height)
+            .expect("the shape was checked when the buffer was made");
+        draw(&mut mask)
+    }
+
     /// The mask without specks: its largest region alone where all else is at most a tenth of
     /// it, as a network or a threshold leaves it; otherwise unchanged, because a silhouette in
     /// two halves is no matter of specks. Returns the number of pixels dropped.
