@@ -83,8 +83,13 @@ pub mod costs;
 pub mod follow;
 pub mod wire;
 
+mod cells;
+mod dark_regions;
 pub mod one_click;
+#[cfg(feature = "alloc")]
+mod places_buffers;
 pub mod seeds;
+pub mod shapes;
 pub mod whole_frame;
 
 pub mod brush;
@@ -98,5 +103,7 @@ mod synthetic;
 
 pub use error::TracingError;
 pub use list::List;
+#[cfg(feature = "alloc")]
+pub use places_buffers::PlacesBuffers;
 pub use side::{Hand, Inside};
 pub use vertex::{NEW, ShapeError, Vertex};
