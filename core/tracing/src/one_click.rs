@@ -62,4 +62,4 @@ pub use state::{ANSWERS, OneClick, STARTS};
 pub use support::Support;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

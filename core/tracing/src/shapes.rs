@@ -254,3 +254,97 @@ fn deepest(shape: &Mask<'_>, depths: &mut [u16]) -> Option<[usize; 2]> {
     }
     best.1
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::PlacesBuffers;
+    use crate::one_click::tests::{SIDE, camera, library, model, pose, silhouette};
+    use fluoropose::finder::FinderBuffers;
+    use fluoropose::image::frame::Frame;
+    use fluoropose::library::Library;
+    use fluoropose::mesh::Model;
+    use fluoropose::refine::Polarity;
+    use fluoropose::search::kernels::Kernels;
+    use std::vec::Vec;
+
+    /// A round field with black corners, a black ruler, black letters, and a dark bar along the border; of the implant less than of all these.
+    fn drawn(implant: &Mask<'_>) -> Vec<u16> {
+        let grey = |k: usize| {
+            let (column, row) = (k % SIDE, k / SIDE);
+            let middle = SIDE as f64 / 2.0;
+            let off = libm::hypot(column as f64 - middle, row as f64 - middle);
+            let is_ruler = (30..42).contains(&column) && row % 3 > 0;
+            let is_word = (300..360).contains(&column)
+                && row < 30
+                && (column / 6 + row / 6).is_multiple_of(2);
+            match (
+                off > 1.2 * middle || is_ruler || is_word || column > SIDE - 20,
+                implant.get(column, row),
+            ) {
+                (true, _) => 100,
+                (false, true) => 9000,
+                (false, false) => 20_000 + 40 * column as u16,
+            }
+        };
+        (0..SIDE * SIDE).map(grey).collect()
+    }
+
+    fn places(pixels: &[u16], unknown: Option<&Mask<'_>>, polarity: Polarity) -> Vec<Point> {
+        let (vertices, triangles) = model();
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let (bytes, camera) = (library(model, 1000.0), camera());
+        let library = Library::open(&bytes).expect("a library");
+        let component = Component {
+            library: &library,
+            model: &model,
+            planes: &[],
+        };
+        let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
+        let image = ImageTarget {
+            frame: &frame,
+            unknown,
+            polarity,
+            film: None,
+        };
+        let (mut buffers, mut finder) = (PlacesBuffers::default(), FinderBuffers::default());
+        let mut memory = buffers.borrow(&camera, finder.workspace(&library, Kernels::PORTABLE));
+        let size = crate::seeds::expected_size(&component, &camera);
+        let found = shapes(&image, &component, &camera, size, &mut memory.shapes);
+        let found = found.expect("enough memory").to_vec();
+        memory.shapes.words = &mut [];
+        assert!(shapes(&image, &component, &camera, size, &mut memory.shapes).is_err());
+        found
+    }
+
+    #[test]
+    fn what_has_the_shape_of_a_view_comes_before_what_is_darker() {
+        let (vertices, triangles) = model();
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let words = silhouette(&model, &pose());
+        let implant = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let is_in = |at: &Point| implant.get(at.column as usize, at.row as usize);
+        let pixels = drawn(&implant);
+        let found = places(&pixels, None, Polarity::DarkImplant);
+        assert!(found.first().is_some_and(is_in), "{found:?}");
+        let negative: Vec<u16> = pixels.iter().map(|grey| 40_000 - grey).collect();
+        assert_eq!(places(&negative, None, Polarity::BrightImplant), found);
+        let elsewhere = places(&pixels, Some(&implant), Polarity::DarkImplant);
+        assert!(!elsewhere.iter().any(is_in), "{elsewhere:?}");
+        let uniform = std::vec![7; SIDE * SIDE];
+        assert!(places(&uniform, None, Polarity::DarkImplant).is_empty());
+    }
+
+    #[test]
+    fn the_deepest_cell_is_the_one_farthest_from_all_that_is_outside() {
+        let mut words = std::vec![0; words_needed(20, 12)];
+        let mut shape = MaskMut::new(&mut words, 20, 12).expect("fits");
+        (2..9).for_each(|row| shape.fill_span(row, 3, 8));
+        (5..6).for_each(|row| shape.fill_span(row, 8, 18));
+        let mut depths = std::vec![0; 240];
+        assert_eq!(deepest(&shape.as_mask(), &mut depths), Some([5, 4]));
+        let nothing = std::vec![0; words_needed(20, 12)];
+        let nothing = Mask::new(&nothing, 20, 12).expect("fits");
+        assert_eq!(deepest(&nothing, &mut depths), None);
+    }
+}
