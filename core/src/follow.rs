@@ -89,7 +89,8 @@ pub use near::{NEAR, near_poses};
 pub use other_margins::other_margins;
 pub use search_order::{TRIES, frames_to_search, run_to_search};
 pub use search_plan::{
-    Ends, FAR, KnownFrame, LED, NOWHERE, Other, Search, SearchPlan, SearchStep, Sought, WAYS,
+    Ends, FAR, KnownFrame, LED, NOWHERE, Other, Places, Search, SearchPlan, SearchStep, Sought,
+    VAIN, WAYS,
 };
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};

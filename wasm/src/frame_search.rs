@@ -6,7 +6,7 @@ mod walk;
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::{Component, FinderBuffers};
-use fluoropose::follow::{FramePose, InJoint, JointSearch, Subject};
+use fluoropose::follow::{FramePose, InJoint, JointSearch, Places, Subject};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent};
@@ -14,8 +14,8 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use fluoropose::search::kernels::Kernels;
+use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::OneClickBuffers;
-use fluoropose_tracing::seeds::seeds_needed;
 use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::prelude::*;
 
@@ -43,8 +43,10 @@ pub struct FrameSearch {
     /// The joint's other component, and where it is in the frame.
     other: Option<Other>,
     beside: Option<Beside>,
+    places: Places,
     finder: FinderBuffers,
     own: OneClickBuffers,
+    for_places: PlacesBuffers,
     refine: RefineBuffers,
     search: Option<Search>,
     walk: Option<Walk>,
@@ -82,8 +84,10 @@ impl FrameSearch {
             limb: None,
             other: None,
             beside: None,
+            places: Places::All,
             finder: FinderBuffers::default(),
             own: OneClickBuffers::default(),
+            for_places: PlacesBuffers::default(),
             refine: RefineBuffers::default(),
             search: None,
             walk: None,
@@ -165,6 +169,21 @@ impl FrameSearch {
         Ok(())
     }
 
+    /// Says where the next frame is searched as a whole: `shaped`, `dark` or `all`, as the core's `Places`.
+    ///
+    /// # Errors
+    /// A sentence about another word.
+    #[wasm_bindgen(js_name = lookAt)]
+    pub fn look_at(&mut self, places: &str) -> Result<(), JsError> {
+        self.places = match places {
+            "shaped" => Places::Shaped,
+            "dark" => Places::Dark,
+            "all" => Places::All,
+            other => return Err(JsError::new(&format!("No places are called {other}"))),
+        };
+        Ok(())
+    }
+
     /// Whether metal is brighter than what surrounds it, by a frame in which the component's pose is known.
     ///
     /// # Errors
@@ -194,6 +213,7 @@ impl FrameSearch {
         let subject = Subject::new(&model, &self.planes, &self.camera);
         let (camera, polarity, kept) = (&self.camera, self.polarity, &mut self.search);
         let (finder, own, refine) = (&mut self.finder, &mut self.own, &mut self.refine);
+        let (for_places, places) = (&mut self.for_places, self.places);
         let (other, beside) = (self.other.as_ref(), self.beside.as_ref());
         let limb = limb_of(&self.model, self.limb);
         let joint = beside.filter(|beside| beside.in_joint);
@@ -207,9 +227,11 @@ impl FrameSearch {
                     }
                     (_, _, Some(beside)) if beside.in_joint => return Ok(false),
                     _ => {
-                        let mut sums = vec![0.0; seeds_needed(camera)];
                         let middle: Option<Vector3> = beside.map(|beside| beside.middle);
-                        let begun = WholeFrame::new(image, &component, camera, middle, &mut sums);
+                        let workspace = finder.workspace(component.library, Kernels::PORTABLE);
+                        let mut memory = for_places.borrow(camera, workspace);
+                        let at = (places, middle);
+                        let begun = WholeFrame::new(image, &component, camera, at, &mut memory);
                         Search::Whole(Box::new(begun.map_err(sentence)?))
                     }
                 });

@@ -1,6 +1,6 @@
 //! In which order components are looked for that nobody pointed at; see the core's `SearchPlan`.
 
-use fluoropose::follow::{self, Ends, KnownFrame, Search, Sought};
+use fluoropose::follow::{self, Ends, KnownFrame, Places, Search, Sought};
 use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::pose::{EulerPose, Pose};
 use wasm_bindgen::prelude::*;
@@ -136,6 +136,20 @@ impl SearchStep {
     #[wasm_bindgen(getter)]
     pub fn frame(&self) -> usize {
         self.step.frame
+    }
+
+    /// Where a whole frame is searched: `shaped`, `dark` or `all`.
+    #[wasm_bindgen(getter)]
+    pub fn places(&self) -> String {
+        let word = match self.step.search {
+            Search::Whole { places, .. } => match places {
+                Places::Shaped => "shaped",
+                Places::Dark => "dark",
+                Places::All => "all",
+            },
+            _ => "all",
+        };
+        word.to_owned()
     }
 
     /// `whole`, `joint`, `beside` or `follow`.

@@ -5,6 +5,9 @@
 //! how a film shows metal, it is looked for in two ways, dark and bright, frame by frame by turns: whichever shows a component first is
 //! gone on with; where that does not show all, what is found better counts, for a bright thing beside dark ones may be taken for a component.
 //!
+//! Things of the right shape come first, in all frames and ways: that takes moments. Then come dark places, which are many, and of such
+//! searches no more than [`VAIN`] are done in vain.
+//!
 //! Whoever drives it asks for the [`SearchPlan::next`] step, does it, and gives its answer.
 
 mod pairs;
@@ -18,7 +21,7 @@ use crate::pose::Pose;
 use pairs::Pairs;
 
 pub use sought::{Ends, KnownFrame, LED, Sought};
-pub use step::{Other, Search, SearchStep};
+pub use step::{Other, Places, Search, SearchStep};
 
 /// Ways in which a film may show metal: dark, then bright.
 pub const WAYS: usize = 2;
@@ -27,19 +30,24 @@ pub const FAR: usize = 6;
 /// What is to be said of a component that was looked for in vain.
 pub const NOWHERE: &str =
     "in no frame that was searched are edges all along its outline from any side";
+/// So many searches of whole frames at dark places, or beside what is known, are done in vain at most: each takes as long as following some
+/// frames does, and where the first few find nothing there is hardly anything to be found.
+pub const VAIN: usize = 6;
 /// Where a pose that a joint leaves has such a score others are not looked for.
 const ENOUGH: f64 = 0.55;
+/// Each frame that is searched is visited twice at most.
+const VISITS: usize = 2 * TRIES;
 /// Number of the last pass of a visit of a frame; the one after it looks beside what was found.
 const LAST_PASS: usize = 4;
 
 /// How far the search is; see the module.
 #[derive(Clone, Debug)]
 pub struct SearchPlan {
-    frames: Vec<usize, TRIES>,
+    visits: Vec<(usize, Places), VISITS>,
     ways: usize,
     /// The way that is searched alone, once frames were gone through by turns: the first of them, and how many of them are done.
     alone: Option<[usize; WAYS]>,
-    /// Number of the visit, and of the pass in it.
+    /// Number of the visit of a frame, and of the pass in it.
     visit: usize,
     pass: usize,
     is_begun: bool,
@@ -51,9 +59,11 @@ pub struct SearchPlan {
     pairs: Pairs,
     best: Option<KnownFrame>,
     depth_mm: Option<f64>,
-    /// Of each way: frames that were searched, by their place in the list, and the known frames beside which joints were looked for.
-    seen: [[bool; TRIES]; WAYS],
+    /// Of each way: visits that were made, by their place in the list, and the known frames beside which joints were looked for.
+    seen: [[bool; VISITS]; WAYS],
     led: [usize; WAYS],
+    /// Of the searches that are long those that found nothing.
+    vain: usize,
     asked: Option<SearchStep>,
     done: Option<usize>,
 }
@@ -63,7 +73,7 @@ impl SearchPlan {
     #[must_use]
     pub fn new(frames: usize, is_told: bool) -> Self {
         Self {
-            frames: frames_to_search(&(0..frames)),
+            visits: visits(frames),
             ways: if is_told { 1 } else { WAYS },
             alone: None,
             visit: 0,
@@ -75,8 +85,9 @@ impl SearchPlan {
             pairs: Pairs::default(),
             best: None,
             depth_mm: None,
-            seen: [[false; TRIES]; WAYS],
+            seen: [[false; VISITS]; WAYS],
             led: [0; WAYS],
+            vain: 0,
             asked: None,
             done: None,
         }
@@ -110,6 +121,7 @@ impl SearchPlan {
             return;
         };
         let found = found.map(|(pose, score)| KnownFrame::new(step.frame, pose, score));
+        self.vain += usize::from(found.is_none() && is_long(&step.search));
         let part = &mut way_of_mut(parts, self.ways, step.way)[step.part];
         match step.search {
             Search::Whole { .. } => {
@@ -145,9 +157,15 @@ impl SearchPlan {
         self.done
     }
 
-    /// The way and the frame (its place in the list) that are visited; `None` where all was visited, or is found.
+    /// Whether what is missing is looked for no more, because so much was done in vain ([`VAIN`]).
+    #[must_use]
+    pub fn is_given_up(&self) -> bool {
+        self.vain >= VAIN
+    }
+
+    /// The way and the visit (its place in the list) that are due; `None` where all was visited, or is found.
     fn visited(&mut self, parts: &[Sought]) -> Option<(usize, usize)> {
-        let turns = self.frames.len() * self.ways;
+        let turns = self.visits.len() * self.ways;
         if self.alone.is_none() {
             while self.visit < turns {
                 let way = self.visit % self.ways;
@@ -164,7 +182,7 @@ impl SearchPlan {
             self.visit = 0;
         }
         // One more visit of each looks beside what was found.
-        let each = self.frames.len() + 1;
+        let each = self.visits.len() + 1;
         let order = self.alone?;
         (self.visit < each * self.ways).then(|| (order[self.visit / each], self.visit % each))
     }
@@ -176,25 +194,25 @@ impl SearchPlan {
         frame: usize,
         parts: &mut [Sought],
     ) -> Option<SearchStep> {
-        let number = self.frames.get(frame).copied();
-        let Some(number) = number else {
+        let number = self.visits.get(frame).copied();
+        let Some(visit) = number else {
             return self.beside_step(way, parts);
         };
         match self.pass {
             0 | 2 | 4 => self.joint_step(way, parts),
-            1 | 3 => self.whole_step(way, number, self.pass == 3, parts),
+            1 | 3 => self.whole_step(way, visit, self.pass == 3, parts),
             _ => None,
         }
     }
 
     fn after_pass(&mut self, way: usize, parts: &[Sought]) {
         (self.part, self.pairs, self.in_pass) = (0, Pairs::default(), false);
-        let each = self.frames.len() + 1;
+        let each = self.visits.len() + 1;
         let frame = match self.alone {
             None => self.visit / self.ways,
             Some(_) => self.visit % each,
         };
-        let is_beside = frame == self.frames.len();
+        let is_beside = frame == self.visits.len();
         let is_seen = self.pass == 0 && !is_beside && self.seen[way][frame];
         if !is_beside && !is_seen && self.pass < LAST_PASS {
             self.pass += 1;
@@ -220,10 +238,13 @@ impl SearchPlan {
     fn whole_step(
         &mut self,
         way: usize,
-        frame: usize,
+        (frame, places): (usize, Places),
         trays: bool,
         parts: &[Sought],
     ) -> Option<SearchStep> {
+        if places == Places::Dark && self.is_given_up() {
+            return None;
+        }
         let is_wanted = |part: &Sought| part.is_missing() && part.is_tray() == trays;
         self.part += parts.get(self.part..)?.iter().position(is_wanted)?;
         Some(SearchStep {
@@ -232,6 +253,7 @@ impl SearchPlan {
             frame,
             search: Search::Whole {
                 depth_mm: self.depth_mm,
+                places,
             },
         })
     }
@@ -264,7 +286,7 @@ impl SearchPlan {
 
     /// A component looked for in whole frames beside others that are known.
     fn beside_step(&mut self, way: usize, parts: &[Sought]) -> Option<SearchStep> {
-        while self.part < parts.len() {
+        while self.part < parts.len() && !self.is_given_up() {
             if parts[self.part].is_missing()
                 && let Some((frame, search)) = self.pairs.next(self.part, parts, |_| true)
             {
@@ -307,6 +329,23 @@ impl SearchPlan {
         }
         order[0]
     }
+}
+
+/// Whether a search takes many clicks.
+fn is_long(search: &Search) -> bool {
+    match search {
+        Search::Whole { places, .. } => *places != Places::Shaped,
+        Search::Beside { .. } => true,
+        Search::Joint(_) | Search::Follow { .. } => false,
+    }
+}
+
+/// Every frame where something has the right shape, which takes a moment and most often leads to what is sought; then once more where
+/// something is dark.
+fn visits(frames: usize) -> Vec<(usize, Places), VISITS> {
+    let frames = frames_to_search(&(0..frames));
+    let of = |places| frames.iter().map(move |&frame| (frame, places));
+    of(Places::Shaped).chain(of(Places::Dark)).collect()
 }
 
 fn way_of(parts: &[Sought], ways: usize, way: usize) -> &[Sought] {

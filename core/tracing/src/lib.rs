@@ -83,11 +83,16 @@ pub mod costs;
 pub mod follow;
 pub mod wire;
 
-pub mod beside;
+mod cells;
+mod dark_regions;
 pub mod one_click;
+#[cfg(feature = "alloc")]
+mod places_buffers;
 pub mod seeds;
+pub mod shapes;
 pub mod whole_frame;
 
+pub mod beside;
 pub mod brush;
 pub mod morphology;
 pub mod simplify;
@@ -99,5 +104,7 @@ mod synthetic;
 
 pub use error::TracingError;
 pub use list::List;
+#[cfg(feature = "alloc")]
+pub use places_buffers::PlacesBuffers;
 pub use side::{Hand, Inside};
 pub use vertex::{NEW, ShapeError, Vertex};

@@ -24,8 +24,8 @@
 mod error;
 mod observation;
 
-mod background;
-mod window;
+pub(crate) mod background;
+pub(crate) mod window;
 
 mod flooding;
 mod opening;
@@ -51,13 +51,15 @@ mod state;
 pub use buffers::OneClickBuffers;
 pub use candidates::{Answer, Start};
 pub use error::OneClickError;
+pub(crate) use expected::DISTANCES;
 pub use job::Progress;
 pub use judged::candidates;
 pub use memory::{OneClickMemory, OneClickNeeds};
 pub use observation::Observation;
 pub use prompt::Prompt;
+pub(crate) use state::SQUARE;
 pub use state::{ANSWERS, OneClick, STARTS};
 pub use support::Support;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -15,13 +15,13 @@ use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose::shortlist::keep;
 use heapless::Vec;
 
+use crate::cells::Cells;
+
 /// Most places: as many by turns of each kind.
 pub const SEEDS: usize = KINDS * TURNS;
 const KINDS: usize = 4;
 const TURNS: usize = 4;
 
-/// The frame is read at so many places along its longer side.
-const CELLS: usize = 256;
 /// Half sides of boxes, parts of the component's size, and where those around lie, the same.
 const INNER: [f64; 2] = [0.06, 0.12];
 const AROUND: [f64; 3] = [0.4, 0.7, 1.0];
@@ -54,8 +54,8 @@ const SAME: f64 = 0.4;
 /// Numbers that [`seeds`] borrows.
 #[must_use]
 pub fn seeds_needed(camera: &Camera) -> usize {
-    let (columns, rows, _) = cells(camera);
-    2 * (columns + 1) * (rows + 1)
+    let cells = Cells::of(camera);
+    2 * (cells.columns + 1) * (cells.rows + 1)
 }
 
 /// Square root of the mean area of a component's silhouettes in frames of a camera, at the library's distance, pixels.
@@ -85,9 +85,10 @@ pub fn seeds(
     size_px: f64,
     sums: &mut [f64],
 ) -> Result<Vec<Point, SEEDS>, TooLittleMemory> {
-    let (columns, rows, cell) = cells(camera);
+    let cells = Cells::of(camera);
+    let (columns, rows, cell) = (cells.columns, cells.rows, cells.side);
     let sums = first("sums", seeds_needed(camera), sums)?;
-    let table = Table::of(image, (columns, rows), cell, sums);
+    let table = Table::of(image, cells, sums);
     let mut kinds: [Shortlist; KINDS] = Default::default();
     let apart = SAME * size_px;
     for part in INNER {
@@ -95,7 +96,7 @@ pub fn seeds(
         for row in (half..rows.saturating_sub(half)).step_by(half) {
             for column in (half..columns.saturating_sub(half)).step_by(half) {
                 let (darker, kind) = table.darker(column, row, half, size_px / cell);
-                let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
+                let at = cells.middle(column, row);
                 let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
                 let known = table.is_seen(column, row) && !image.unknown.is_some_and(is_unknown);
                 if darker > 0.0 && known {
@@ -116,35 +117,20 @@ fn by_turns(kinds: &[Shortlist; KINDS]) -> Vec<Point, SEEDS> {
     turns.flatten().map(|&(_, at)| at).take(SEEDS).collect()
 }
 
-/// Columns and rows of cells, and the side of each in pixels.
-fn cells(camera: &Camera) -> (usize, usize, f64) {
-    let (width, height) = (camera.width() as f64, camera.height() as f64);
-    let cell = (width.max(height) / CELLS as f64).max(1.0);
-    ((width / cell) as usize, (height / cell) as usize, cell)
-}
-
 /// Sums over all cells above and to the left of each corner: of light, and of cells that are clipped.
 struct Table<'m> {
     frame: &'m dyn Grey,
-    cell: f64,
+    cells: Cells,
     light: &'m [f64],
     clipped: &'m [f64],
-    columns: usize,
-    rows: usize,
     /// The difference between the brightest and the darkest cell.
     range: f64,
 }
 
 impl<'m> Table<'m> {
-    fn of(
-        image: &ImageTarget<'m>,
-        (columns, rows): (usize, usize),
-        cell: f64,
-        sums: &'m mut [f64],
-    ) -> Self {
-        let frame = image.frame;
-        let at =
-            |column: usize, row: usize| grey(frame, column as f64 * cell, row as f64 * cell, cell);
+    fn of(image: &ImageTarget<'m>, cells: Cells, sums: &'m mut [f64]) -> Self {
+        let (frame, columns, rows) = (image.frame, cells.columns, cells.rows);
+        let at = |column: usize, row: usize| cells.grey(frame, column, row);
         let mut limits = [f64::INFINITY, f64::NEG_INFINITY];
         for row in 0..rows {
             for value in (0..columns).filter_map(|column| at(column, row)) {
@@ -169,19 +155,16 @@ impl<'m> Table<'m> {
         });
         Self {
             frame,
-            cell,
+            cells,
             light,
             clipped,
-            columns,
-            rows,
             range,
         }
     }
 
     /// Whether a cell is of the picture.
     fn is_seen(&self, column: usize, row: usize) -> bool {
-        let [left, top] = [column, row].map(|at| at as f64 * self.cell);
-        grey(self.frame, left, top, self.cell).is_some()
+        self.cells.grey(self.frame, column, row).is_some()
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both, and of which kind it is.
@@ -197,8 +180,8 @@ impl<'m> Table<'m> {
                     row as f64 + part * size * down,
                 );
                 let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
-                let seen = within(x, self.columns)
-                    && within(y, self.rows)
+                let seen = within(x, self.cells.columns)
+                    && within(y, self.cells.rows)
                     && self.is_seen(x as usize, y as usize);
                 seen.then(|| {
                     let outside = light(x as usize, y as usize);
@@ -227,10 +210,13 @@ impl<'m> Table<'m> {
     fn mean(&self, sums: &[f64], column: usize, row: usize, half: usize) -> f64 {
         let (left, right) = (
             column.saturating_sub(half),
-            (column + half + 1).min(self.columns),
+            (column + half + 1).min(self.cells.columns),
         );
-        let (top, bottom) = (row.saturating_sub(half), (row + half + 1).min(self.rows));
-        let at = |column: usize, row: usize| sums[row * (self.columns + 1) + column];
+        let (top, bottom) = (
+            row.saturating_sub(half),
+            (row + half + 1).min(self.cells.rows),
+        );
+        let at = |column: usize, row: usize| sums[row * (self.cells.columns + 1) + column];
         let sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
         sum / ((right - left) * (bottom - top)).max(1) as f64
     }
@@ -255,22 +241,6 @@ fn sum_up(
             sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
         }
     }
-}
-
-/// The mean of four readings in a cell; `None` where one of them is not of the picture.
-fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> Option<f64> {
-    let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-    let (width, height) = frame.size();
-    let read = |(right, down): (f64, f64)| {
-        let column = (left + right * cell).clamp(0.5, width as f64 - 0.5);
-        let row = (top + down * cell).clamp(0.5, height as f64 - 0.5);
-        frame.at(column, row)
-    };
-    let mut sum = 0.0;
-    for place in places {
-        sum += read(place)?;
-    }
-    Some(sum / 4.0)
 }
 
 /// Keeps the darkest of places that are one.

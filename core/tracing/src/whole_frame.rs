@@ -1,9 +1,9 @@
-//! A component looked for in a whole frame, where nobody points at it: clicks at the places that [`seeds`] gives, most of which
-//! lead nowhere and are soon given up.
+//! A component looked for in a whole frame, where nobody points at it: clicks at the places that [`shapes`] gives, nearly all of which lead to
+//! what is sought where it shows, and at those of [`seeds`], most of which lead nowhere and are soon given up.
 
 use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
-use fluoropose::follow::{FramePose, From, Subject, refined_on_frame};
+use fluoropose::follow::{FramePose, From, Places, Subject, refined_on_frame};
 use fluoropose::image::contour::Point;
 use fluoropose::math::{Vector3, norm, sqrt, subtract};
 use fluoropose::memory::TooLittleMemory;
@@ -15,7 +15,10 @@ use crate::one_click::{
     Answer, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Progress, Prompt,
 };
 use crate::seeds::{SEEDS, expected_size, seeds};
+use crate::shapes::{SHAPES, ShapeMemory, shapes};
 
+/// Most places that are tried.
+const PLACES: usize = SHAPES + SEEDS;
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
 /// What is asked of a pose that nobody pointed at.
@@ -68,12 +71,21 @@ pub struct Discovery {
     pub pose: FramePose,
 }
 
+/// Working memory of [`WholeFrame::new`].
+#[derive(Debug)]
+pub struct PlacesMemory<'m> {
+    /// [`crate::seeds::seeds_needed`] numbers.
+    pub sums: &'m mut [f64],
+    /// As [`crate::shapes::shapes_needed`] says.
+    pub shapes: ShapeMemory<'m>,
+}
+
 /// The search of a frame, in steps between which it can be called off.
 #[derive(Debug)]
 pub struct WholeFrame {
     /// Middle of the joint's other component, where that is known.
     beside: Option<Vector3>,
-    places: Vec<Point, SEEDS>,
+    places: Vec<Point, PLACES>,
     /// Number of the place that is tried.
     at: usize,
     click: Option<OneClick>,
@@ -83,23 +95,29 @@ pub struct WholeFrame {
 }
 
 impl WholeFrame {
-    /// Begins the search of a frame; nothing is looked for where its pixels are unknown. Where the joint's other component is known,
-    /// `beside` its middle (mm, in the camera's frame) less is asked of an answer, and only there. `sums` are
-    /// [`crate::seeds::seeds_needed`] numbers.
+    /// Begins the search of a frame at some places; nothing is looked for where its pixels are unknown. Where the joint's other component is
+    /// known, `beside` its middle (mm, in the camera's frame) less is asked of an answer, and only there.
     ///
     /// # Errors
-    /// [`TooLittleMemory`] where there are fewer.
+    /// [`TooLittleMemory`] where there is less than [`crate::seeds::seeds_needed`] and [`crate::shapes::shapes_needed`].
     pub fn new(
         image: &ImageTarget<'_>,
         component: &Component<'_>,
         camera: &Camera,
-        beside: Option<Vector3>,
-        sums: &mut [f64],
+        (places, beside): (Places, Option<Vector3>),
+        memory: &mut PlacesMemory<'_>,
     ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
+        let mut all = Vec::new();
+        if places != Places::Dark {
+            all.extend(shapes(image, component, camera, size, &mut memory.shapes)?);
+        }
+        if places != Places::Shaped {
+            all.extend(seeds(image, camera, size, memory.sums)?);
+        }
         let mut search = Self {
             beside,
-            places: seeds(image, camera, size, sums)?,
+            places: all,
             at: 0,
             click: None,
             found: None,
@@ -209,6 +227,11 @@ impl WholeFrame {
         ) else {
             return;
         };
+        // Where refinement ends depends a little on where it began: less so the second time, from the same answer by another click.
+        let again = refined_on_frame(subject, image, (&pose.pose, From::Far), memory).ok();
+        let pose = again
+            .filter(|again| is_good(again, demands))
+            .unwrap_or(pose);
         self.agreed = self
             .found
             .is_some_and(|found| are_one(&found.pose.pose, &pose.pose));

@@ -121,7 +121,7 @@ export class FirstPoses {
     });
   }
 
-  async #look({ way, part, frame, search: how, known }: PlanStep, search: Search): Promise<Discovery | null> {
+  async #look({ way, part, frame, search: how, places, known }: PlanStep, search: Search): Promise<Discovery | null> {
     const own = search.parts[part]!;
     const { component } = own;
     const worker = search.workers[component];
@@ -132,7 +132,7 @@ export class FirstPoses {
     const title = texts.follow.looking(texts.component[component], frame + 1, other);
     const job = { title, unit: texts.tracing.said.percent, total: 100, cancel: search.cancel, place: { frameId, component } };
     const found = await asJob(this.#services.store, job, (report) =>
-      worker.call('find', { ...pixels, beside, bright: isBright(way, search) }, {
+      worker.call('find', { ...pixels, beside, places, bright: isBright(way, search) }, {
         signal: search.signal,
         transfer: [pixels.pixels.buffer],
         onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),

@@ -56,7 +56,7 @@ function bench(script: Script, way: number, answers: readonly (Discovery | null)
   return { store, find, asked, planned, clicked, begun: () => begun };
 }
 
-const step = (way: number, part: number, frame: number, search: PlanStep['search'], known: PoseNumbers | null = null): PlanStep => ({ way, part, frame, search, known });
+const step = (way: number, part: number, frame: number, search: PlanStep['search'], known: PoseNumbers | null = null): PlanStep => ({ way, part, frame, search, places: 'all', known });
 const NOTHING = [[null, null], [null, null]];
 
 describe('first poses', () => {

@@ -15,6 +15,17 @@ pub struct SearchStep {
     pub search: Search,
 }
 
+/// Where in a whole frame a component is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Places {
+    /// Where something has a shape that it has from some side: few places, and nearly all that lead to it.
+    Shaped,
+    /// Where something is dark: many.
+    Dark,
+    /// At the first, then at the others.
+    All,
+}
+
 /// How a component is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Search {
@@ -22,6 +33,8 @@ pub enum Search {
     Whole {
         /// Distance, mm.
         depth_mm: Option<f64>,
+        /// Where there.
+        places: Places,
     },
     /// Where its joint leaves it beside the other one ([`crate::follow::JointSearch`]), whose silhouette is left out of sight.
     Joint(Other),

@@ -1,5 +1,6 @@
 //! The order of work against plain loops, in worlds that answer at random.
 
+use std::cell::Cell;
 use std::vec::Vec;
 
 use super::*;
@@ -24,7 +25,7 @@ impl World {
     fn search(&self, kind: usize, way: usize, part: usize, frame: usize) -> Option<(Pose, f64)> {
         let random = self.random(&[1, kind, way, part, frame]);
         let score = 0.38 + 0.01 * (random / 8 % 30) as f64;
-        let likely = [1, 3, 2][kind];
+        let likely = [1, 3, 2, 1][kind];
         (random % 8 < likely).then(|| (pose(way, part, frame), score))
     }
 
@@ -35,6 +36,15 @@ impl World {
             (at != frame && !random.is_multiple_of(4)).then(|| (at, pose(way, part, at)))
         };
         [end(0), end(1)]
+    }
+}
+
+/// Number of a search of a whole frame.
+fn kind_of(places: Places) -> usize {
+    match places {
+        Places::Shaped => 0,
+        Places::Dark => 3,
+        Places::All => unreachable!("it has no use of both"),
     }
 }
 
@@ -78,25 +88,44 @@ struct Plain<'w> {
     parts: Vec<Sought>,
     way: usize,
     last: usize,
-    seen: Vec<usize>,
+    seen: Vec<(usize, Places)>,
     led: usize,
+    /// Long searches in vain, of all ways.
+    vain: &'w Cell<usize>,
     asked: Vec<Asked>,
 }
 
 impl Plain<'_> {
-    fn alone(&mut self, frame: usize) -> bool {
+    /// Whether long searches are done no more.
+    fn is_given_up(&self) -> bool {
+        self.vain.get() >= VAIN
+    }
+
+    /// Counts a long search that found nothing.
+    fn count(&self, found: Option<(Pose, f64)>) {
+        self.vain
+            .set(self.vain.get() + usize::from(found.is_none()));
+    }
+
+    fn alone(&mut self, (frame, places): (usize, Places)) -> bool {
         self.in_joint();
-        if !self.seen.contains(&frame) {
-            self.seen.push(frame);
+        if !self.seen.contains(&(frame, places)) {
+            self.seen.push((frame, places));
+            let (kind, is_long) = (kind_of(places), places == Places::Dark);
             for trays in [false, true] {
                 let depth = self
                     .parts
                     .iter()
                     .find_map(|part| Some(part.depth_mm(&part.known.first()?.pose)));
                 for part in 0..self.parts.len() {
-                    if self.parts[part].is_missing() && self.parts[part].is_tray() == trays {
-                        self.asked.push((0, self.way, part, frame, depth));
-                        let found = self.world.search(0, self.way, part, frame);
+                    let is_wanted =
+                        self.parts[part].is_missing() && self.parts[part].is_tray() == trays;
+                    if is_wanted && !(is_long && self.is_given_up()) {
+                        self.asked.push((kind, self.way, part, frame, depth));
+                        let found = self.world.search(kind, self.way, part, frame);
+                        if is_long {
+                            self.count(found);
+                        }
                         self.take(part, frame, found);
                     }
                 }
@@ -160,10 +189,11 @@ impl Plain<'_> {
     fn beside(&mut self) -> bool {
         for part in 0..self.parts.len() {
             for (other, frame, pose) in self.beside_known(part) {
-                if self.parts[part].is_missing() {
+                if self.parts[part].is_missing() && !self.is_given_up() {
                     let depth = self.parts[other].depth_mm(&pose);
                     self.asked.push((2, self.way, part, frame, Some(depth)));
                     let found = self.world.search(2, self.way, part, frame);
+                    self.count(found);
                     self.take(part, frame, found);
                 }
             }
@@ -186,7 +216,7 @@ fn known(parts: &[Sought]) -> Vec<Vec<(usize, f64)>> {
 }
 
 fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome {
-    let all = parts(world, ways, turned, frames);
+    let (all, vain) = (parts(world, ways, turned, frames), Cell::new(0));
     let plain = |(way, parts): (usize, &[Sought])| Plain {
         world,
         parts: parts.to_vec(),
@@ -194,6 +224,7 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
         last: frames - 1,
         seen: Vec::new(),
         led: 0,
+        vain: &vain,
         asked: Vec::new(),
     };
     let mut plain: Vec<Plain<'_>> = all.chunks(2).enumerate().map(plain).collect();
@@ -201,11 +232,13 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
         let asked = plain.iter().map(|one| one.asked.clone()).collect();
         (asked, way, known(&plain[way].parts))
     };
-    let list = frames_to_search(&(0..frames));
-    for &frame in &list {
+    let frames = frames_to_search(&(0..frames));
+    let of = |places| frames.iter().map(move |&frame| (frame, places));
+    let list: Vec<(usize, Places)> = of(Places::Shaped).chain(of(Places::Dark)).collect();
+    for &visit in &list {
         for way in 0..ways {
             let others_lead = (0..ways).any(|other| other != way && !is_empty(&plain[other].parts));
-            if !others_lead && plain[way].alone(frame) {
+            if !others_lead && plain[way].alone(visit) {
                 return end(&plain, way);
             }
         }
@@ -213,8 +246,8 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
     let mut order: Vec<usize> = (0..ways).collect();
     order.sort_by_key(|&way| is_empty(&plain[way].parts));
     for &way in &order {
-        for &frame in &list {
-            plain[way].alone(frame);
+        for &visit in &list {
+            plain[way].alone(visit);
         }
         if plain[way].beside() {
             break;
@@ -242,7 +275,7 @@ fn by_plan(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome {
         );
         let (way, part, frame) = (step.way, step.part, step.frame);
         let (kind, depth) = match step.search {
-            Search::Whole { depth_mm } => (0, depth_mm),
+            Search::Whole { depth_mm, places } => (kind_of(places), depth_mm),
             Search::Joint(_) => (1, None),
             Search::Beside { depth_mm, .. } => (2, Some(depth_mm)),
             Search::Follow { from } => {

@@ -7,7 +7,7 @@
 /// Cells along the longer side of a window.
 const CELLS: usize = 32;
 /// Numbers of working memory: a grid, and one of squares.
-pub(super) const BACKGROUND: usize = 2 * CELLS * CELLS;
+pub(crate) const BACKGROUND: usize = 2 * CELLS * CELLS;
 
 /// Subtracts the background from the 16-bit grey values of a window of this width, row by row: dark things remain dark, and all else
 /// is as bright as can be. `side` is that of the square, pixels; `memory` are [`BACKGROUND`] numbers.

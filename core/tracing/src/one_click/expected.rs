@@ -6,7 +6,7 @@ use fluoropose::math::sqrt;
 
 /// Nearest and farthest distance of the object from the focus, as multiples of the library's. A camera matrix tells no distance: the
 /// library is then one for a metre, and knees are filmed from 0.7 to 1.45 m.
-const DISTANCES: [f64; 2] = [0.7, 1.45];
+pub(crate) const DISTANCES: [f64; 2] = [0.7, 1.45];
 /// The same one level farther: X-ray tubes stand two metres away at most.
 const FARTHER: [f64; 2] = [1.45, 2.3];
 /// Least and greatest area of a region, as multiples of a silhouette's area: what touches the implant may be part of it.

@@ -26,7 +26,7 @@ pub const ANSWERS: usize = 8;
 /// first does not at the second, which rounds off what is thin), and whether against the background.
 pub(super) const READINGS: [(usize, bool); 3] = [(2, false), (8, false), (4, true)];
 /// Side of the square that tells the background from the implant, in expected sizes.
-pub(super) const SQUARE: f64 = 1.2;
+pub(crate) const SQUARE: f64 = 1.2;
 /// Radii of the discs that cut bridges, as fractions of the expected size.
 pub(super) const RADII: [f64; 4] = [0.0, 0.03, 0.06, 0.1];
 /// What was done in vain counts so much of the work, 0 to 1: all before its end ([`super::Progress`]).

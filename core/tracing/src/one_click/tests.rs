@@ -16,10 +16,10 @@ use fluoropose::render::{Projected, render};
 use fluoropose::search::kernels::Kernels;
 use std::vec::Vec;
 
-const SIDE: usize = 384;
+pub(crate) const SIDE: usize = 384;
 
 /// A tray with a stem and a tab: no symmetry, and parts of some width.
-fn model() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+pub(crate) fn model() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     let boxes = [
         ([-36.0, -8.0, -22.0], [36.0, 8.0, 22.0]),
         ([-9.0, 8.0, -9.0], [9.0, 40.0, 9.0]),
@@ -48,11 +48,11 @@ fn model() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     (vertices, triangles)
 }
 
-fn camera() -> Camera {
+pub(crate) fn camera() -> Camera {
     Camera::new(SIDE, SIDE, [1800.0, 1800.0], [192.0, 192.0]).expect("valid")
 }
 
-fn library(model: Model<'_>, distance_mm: f64) -> Vec<u8> {
+pub(crate) fn library(model: Model<'_>, distance_mm: f64) -> Vec<u8> {
     let axis = ViewAxis {
         first: -8.0,
         step: 2.0,
@@ -70,7 +70,7 @@ fn library(model: Model<'_>, distance_mm: f64) -> Vec<u8> {
     bytes
 }
 
-fn pose() -> Pose {
+pub(crate) fn pose() -> Pose {
     Pose::from(EulerPose {
         x_mm: 6.0,
         y_mm: -9.0,
@@ -82,7 +82,7 @@ fn pose() -> Pose {
 }
 
 /// The silhouette of a model at a pose.
-fn silhouette(model: &Model<'_>, pose: &Pose) -> Vec<Word> {
+pub(crate) fn silhouette(model: &Model<'_>, pose: &Pose) -> Vec<Word> {
     let mut words = std::vec![0; words_needed(SIDE, SIDE)];
     let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
     let mut scratch = std::vec![Projected::default(); model.vertices().len()];

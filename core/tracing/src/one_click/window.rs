@@ -7,9 +7,9 @@ use fluoropose::math::ln;
 use fluoropose::refine::Polarity;
 
 /// Number of grey levels.
-pub(super) const LEVELS: usize = 1024;
+pub(crate) const LEVELS: usize = 1024;
 /// The level of an excluded pixel; no region enters it.
-pub(super) const BLOCKED: u16 = u16::MAX;
+pub(crate) const BLOCKED: u16 = u16::MAX;
 
 /// Fraction of the pixels at either end of the scale that get its first or its last level.
 const CLIPPED: f64 = 0.0005;
@@ -21,11 +21,11 @@ const NO_LIGHT: f64 = 1.0 / 16.0;
 
 /// A rectangle of a frame's pixels, never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Window {
-    pub(super) left: usize,
-    pub(super) top: usize,
-    pub(super) width: usize,
-    pub(super) height: usize,
+pub(crate) struct Window {
+    pub(crate) left: usize,
+    pub(crate) top: usize,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
 }
 
 impl Window {
@@ -47,7 +47,7 @@ impl Window {
         }
     }
 
-    pub(super) fn pixels(&self) -> usize {
+    pub(crate) fn pixels(&self) -> usize {
         self.width * self.height
     }
 
@@ -60,14 +60,14 @@ impl Window {
     }
 
     /// Column and row of a pixel in the window.
-    pub(super) fn place(&self, index: usize) -> (usize, usize) {
+    pub(crate) fn place(&self, index: usize) -> (usize, usize) {
         // Shorter numbers divide sooner, and a window has no more pixels than they count.
         let (index, width) = (index as u32, self.width as u32);
         ((index % width) as usize, (index / width) as usize)
     }
 
     /// Calls `visit` with the pixels above, to the left, to the right and below.
-    pub(super) fn neighbours(&self, index: usize, mut visit: impl FnMut(usize)) {
+    pub(crate) fn neighbours(&self, index: usize, mut visit: impl FnMut(usize)) {
         let (column, row) = self.place(index);
         if row > 0 {
             visit(index - self.width);
@@ -86,12 +86,12 @@ impl Window {
 
 /// How a window is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reading {
-    pub(super) polarity: Polarity,
+pub(crate) struct Reading {
+    pub(crate) polarity: Polarity,
     /// Passes of the binomial filter 1 2 1 in both directions: each adds a variance of 1/2 square pixel.
-    pub(super) smoothing: usize,
+    pub(crate) smoothing: usize,
     /// Against the background, which is told from things smaller than a square of this side, pixels.
-    pub(super) against: Option<f64>,
+    pub(crate) against: Option<f64>,
 }
 
 /// Fills `grey` with the levels of the window's pixels, with dark metal whatever the polarity of the frame. Pixels of
@@ -106,10 +106,26 @@ pub(super) fn levels(
     grey: &mut [u16],
     memory: &mut [u32],
 ) -> f64 {
+    let at = |column: usize, row: usize| frame.at(column as f64 + 0.5, row as f64 + 0.5);
+    let unit = levels_of(at, window, how, grey, memory);
+    // Of a uniform window all is alike.
+    if unit > 0.0 {
+        block(grey, window, excluded);
+    }
+    unit
+}
+
+/// The same of any grey values by column and row; `None` of what is not of the picture.
+pub(crate) fn levels_of(
+    value: impl Fn(usize, usize) -> Option<f64>,
+    window: &Window,
+    how: Reading,
+    grey: &mut [u16],
+    memory: &mut [u32],
+) -> f64 {
     let at = |index: usize| {
         let (column, row) = window.place(index);
-        let (column, row) = (window.left + column, window.top + row);
-        frame.at(column as f64 + 0.5, row as f64 + 0.5)
+        value(window.left + column, window.top + row)
     };
     let read = |visit: &mut dyn FnMut(usize, f64)| {
         let values = (0..window.pixels()).map(|index| (index, at(index)));
@@ -150,7 +166,6 @@ pub(super) fn levels(
         let value = pixel.saturating_sub(dark).min(bright - dark);
         *pixel = (f64::from(value) * scale) as u16;
     }
-    block(grey, window, excluded);
     if is_shuttered {
         let pixels = grey.iter_mut().enumerate().take(window.pixels());
         let hidden = pixels.filter(|(index, _)| at(*index).is_none());

@@ -2,7 +2,7 @@ import { type FrameImage, FrameSearch, SearchPlan, shapeAxes } from '../../pkg/c
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { middleOf } from '../../geometry/mesh_middle';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { Discovery, FirstPosesProtocol, Known, Member, PlanState, SearchInput, StepAnswer } from '../protocol/first_poses';
+import type { Discovery, FindInput, FirstPosesProtocol, Known, Member, PlanState, SearchInput, StepAnswer } from '../protocol/first_poses';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import { withImage } from './frame_pixels';
 import type { Context, Handlers } from './serve';
@@ -39,9 +39,14 @@ export class Searcher {
   }
 
   /** Searches a frame in steps of some tens of milliseconds, so that it can be called off between them. */
-  async find(image: FrameImage, beside: Float64Array, inJoint: boolean, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Discovery | null> {
+  async find(
+    image: FrameImage,
+    { beside, places }: Pick<FindInput, 'beside' | 'places'>,
+    { report, breathe }: Context<{ readonly fraction: number }>,
+  ): Promise<Discovery | null> {
     const search = this.own();
-    search.beside(beside, inJoint);
+    search.beside(beside ? numbers(beside.pose) : NONE, beside?.inJoint ?? false);
+    search.lookAt(places);
     for (let more = search.step(image, true); more; more = search.step(image, false)) {
       report({ fraction: search.progress });
       await breathe();
@@ -74,10 +79,10 @@ export function firstPoses(ready: Promise<unknown>, searcher: Searcher): Handler
       return null;
     },
     isBright: ({ pose, ...pixels }) => withImage(pixels, async (image) => searcher.own().isBright(image, numbers(pose))),
-    find: ({ beside, bright, ...pixels }, context) =>
+    find: ({ beside, bright, places, ...pixels }, context) =>
       withImage(pixels, (image) => {
         searcher.own().showBright(bright);
-        return searcher.find(image, beside ? numbers(beside.pose) : NONE, beside?.inJoint ?? false, context);
+        return searcher.find(image, { beside, places }, context);
       }),
     beginWalk: ({ frame, pose, frames, bright }) => {
       const search = searcher.own();
@@ -126,7 +131,7 @@ class Planner {
     };
     const state = {
       step: step
-        ? { way: step.way, part: step.part, frame: step.frame, search: step.search as 'whole', known: step.known ? poseFrom(step.known) : null }
+        ? { way: step.way, part: step.part, frame: step.frame, search: step.search as 'whole', places: step.places as 'all', known: step.known ? poseFrom(step.known) : null }
         : null,
       known: WAYS.map((way) => Array.from({ length: this.#count }, (_, part) => known(way, part))),
       way: plan.way ?? null,

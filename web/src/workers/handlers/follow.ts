@@ -54,7 +54,7 @@ serve<FollowProtocol>({
   look: (pixels, context) =>
     withImage(pixels, async (image) => {
       if (working().isSearch) {
-        await searcher.find(image, NONE, false, context);
+        await searcher.find(image, { beside: null, places: 'all' }, context);
         working().searched(searcher.pose);
         return { pose: null, next: working().wanted() ?? null };
       }

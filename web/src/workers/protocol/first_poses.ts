@@ -61,9 +61,14 @@ export interface PlanStep {
   readonly frame: number;
   /** In the whole frame; where its joint leaves it beside the other one; in the whole frame beside that; or it is to be followed from there. */
   readonly search: 'whole' | 'joint' | 'beside' | 'follow';
+  /** Where a whole frame is searched. */
+  readonly places: Places;
   /** The pose that is known there: of the other component, or of the one that is to be followed. */
   readonly known: PoseNumbers | null;
 }
+
+/** Where something has a shape that the component has from some side, where something is dark, or the ones and then the others. */
+export type Places = 'shaped' | 'dark' | 'all';
 
 /** What came of a step: of a search, or of following. */
 export type StepAnswer = { readonly found: Discovery | null } | { readonly ends: Float64Array<ArrayBuffer> };
@@ -80,6 +85,8 @@ export interface FindInput {
   readonly bright: boolean;
   /** The pose of the joint's other component, and whether the joint tells where this one is. */
   readonly beside: { readonly pose: PoseNumbers; readonly inJoint: boolean } | null;
+  /** Where a whole frame is searched. */
+  readonly places: Places;
 }
 
 export interface Discovery {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::finder::{Candidate, Component, FindError, FinderBuffers, Goal, find};
-use fluoropose::follow::Subject;
+use fluoropose::follow::{Places, Subject};
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
@@ -14,10 +14,10 @@ use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::{ImageTarget, Polarity, RefineOptions};
+use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start, candidates,
 };
-use fluoropose_tracing::seeds::seeds_needed;
 use fluoropose_tracing::whole_frame::{Discovery, WholeFrame};
 
 /// What came of a prompt.
@@ -146,7 +146,7 @@ impl<'l> Clicker<'l> {
         Ok(found.candidates.to_vec())
     }
 
-    /// Looks for the component in a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame). It takes
+    /// Looks for the component at places of a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame). It takes
     /// seconds, so that `goes_on` hears the part that is done, 0 to 1, and may end it.
     ///
     /// # Errors
@@ -155,7 +155,7 @@ impl<'l> Clicker<'l> {
         &mut self,
         subject: &Subject<'_>,
         image: &ImageTarget<'_>,
-        beside: Option<Vector3>,
+        where_to: (Places, Option<Vector3>),
         mut goes_on: impl FnMut(f64) -> Result<()>,
     ) -> Result<Option<Discovery>> {
         let component = Component {
@@ -164,9 +164,10 @@ impl<'l> Clicker<'l> {
             planes: &self.planes,
         };
         let camera = &self.camera;
-        let mut sums = vec![0.0; seeds_needed(camera)];
-        let mut search = WholeFrame::new(image, &component, camera, beside, &mut sums)?;
         let kernels = fluoropose_kernels::fastest();
+        let mut places = PlacesBuffers::default();
+        let mut places = places.borrow(camera, self.finder.workspace(&self.library, kernels));
+        let mut search = WholeFrame::new(image, &component, camera, where_to, &mut places)?;
         while let Some(needs) = search.needs(camera) {
             goes_on(search.progress())?;
             let finder = self.finder.borrow(&component, camera, kernels);

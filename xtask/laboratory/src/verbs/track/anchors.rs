@@ -1,7 +1,9 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, FramePose, frames_to_search, run_to_search, settled};
+use fluoropose::follow::{
+    Anchor, Cell, FramePose, Places, frames_to_search, run_to_search, settled,
+};
 use fluoropose::pose::Pose;
 
 use super::follow::{follow, mark};
@@ -114,7 +116,7 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
     while let Some(gap) = run_to_search(cells, &(from..cells.len())) {
         from = gap.end;
         for frame in frames_to_search(&gap) {
-            let Some(found) = searched(run, part, frame, depth, None)? else {
+            let Some(found) = searched(run, part, frame, (depth, Places::All), None)? else {
                 continue;
             };
             let anchor = Anchor::found(frame, found);

@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use fluoropose::follow::{
-    Anchor, FramePose, KnownFrame, NOWHERE, Other, Search, SearchPlan, SearchStep, Sought,
+    Anchor, FramePose, KnownFrame, NOWHERE, Other, Places, Search, SearchPlan, SearchStep, Sought,
+    VAIN,
 };
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 
@@ -54,7 +55,7 @@ pub(super) fn begun<'s>(
         }
     }
     let way = ways.swap_remove(plan.way().unwrap_or(0));
-    way.tell_missing(run);
+    way.tell_missing(run, plan.is_given_up());
     Ok((way.parts, way.anchors))
 }
 
@@ -133,17 +134,23 @@ impl<'s> Way<'s> {
             pose: other.pose,
         };
         let found = match step.search {
-            Search::Whole { depth_mm } => {
+            Search::Whole { depth_mm, places } => {
                 let name = part.name();
                 run.say(format!("{name}: looked for in frame {}", frame + 1));
-                searched(run, part, frame, depth_mm, None)?
+                searched(run, part, frame, (depth_mm, places), None)?
             }
             Search::Joint(other) => in_joint(run, part, frame, beside(other))?,
             Search::Beside { other, depth_mm } => {
                 let (name, beside) = (part.name(), beside(other));
                 let place = format!("beside the {} in frame {}", beside.part.name(), frame + 1);
                 run.say(format!("{name}: looked for {place}"));
-                searched(run, part, frame, Some(depth_mm), Some(beside))?
+                searched(
+                    run,
+                    part,
+                    frame,
+                    (Some(depth_mm), Places::All),
+                    Some(beside),
+                )?
             }
             Search::Follow { .. } => None,
         };
@@ -151,11 +158,17 @@ impl<'s> Way<'s> {
         Ok(found)
     }
 
-    fn tell_missing(&self, run: &Run<'_>) {
+    fn tell_missing(&self, run: &Run<'_>, is_given_up: bool) {
+        let spent = match is_given_up {
+            true => format!(", and after {VAIN} long searches in vain no more are done"),
+            false => String::new(),
+        };
         let each = self.parts.iter().zip(&self.anchors);
         for (part, _) in each.filter(|(_, anchors)| anchors.is_empty()) {
             let name = part.name();
-            run.say(format!("{name}: {NOWHERE}; click into it, or fix a pose"));
+            run.say(format!(
+                "{name}: {NOWHERE}{spent}; click into it, or fix a pose"
+            ));
         }
     }
 }

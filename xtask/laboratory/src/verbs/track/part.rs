@@ -197,12 +197,13 @@ impl<'s> Part<'s> {
         }
     }
 
-    /// Those with their numbers; the one that serves a part which is about so far away, mm, comes first.
+    /// Those with their numbers; the one alone that serves a part which is about so far away, mm, where that is known.
     pub(super) fn distances_near(&self, depth: Option<f64>) -> Vec<(usize, f64)> {
         let mut all: Vec<(usize, f64)> = self.distances().into_iter().enumerate().collect();
         if let Some(depth) = depth {
             let off = |(_, distance): &(usize, f64)| (distance / depth).ln().abs();
             all.sort_by(|one, other| off(one).total_cmp(&off(other)));
+            all.truncate(1);
         }
         all
     }

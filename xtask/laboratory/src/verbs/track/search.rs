@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, FramePose, From, InJoint, JointSearch, refined_on_frame};
+use fluoropose::follow::{Anchor, FramePose, From, InJoint, JointSearch, Places, refined_on_frame};
 use fluoropose::image::contour::Point;
 use fluoropose::pose::Pose;
 use fluoropose_tracing::one_click::{Answer, Prompt};
@@ -64,18 +64,25 @@ pub(super) struct Beside<'b, 's> {
 }
 
 /// The pose of a component in a frame that nobody clicked into, perhaps beside another that is known; `None` where none is good.
-/// `depth` is about how far away it is, mm, where that is known of other frames or of the other component.
+/// `depth` is about how far away it is, mm, where that is known of other frames or of the other component; `places` are those of the frame
+/// that are tried.
 pub(super) fn searched(
     run: &Run<'_>,
     part: &Part<'_>,
     frame: usize,
-    depth: Option<f64>,
+    (depth, places): (Option<f64>, Places),
     beside: Option<Beside<'_, '_>>,
 ) -> Result<Option<FramePose>> {
     let known = beside.map_or(String::new(), |beside| {
         format!("/beside-{}-{}", beside.part.number, mark(beside.from))
     });
-    let key = format!("search/{}/{}/{frame}{known}", part.number, part.phase());
+    let (number, phase) = (part.number, part.phase());
+    let at = match places {
+        Places::Shaped => "/shaped",
+        Places::Dark => "/dark",
+        Places::All => "",
+    };
+    let key = format!("search/{number}/{phase}/{frame}{at}{known}");
     run.step((part, frame), "searched", &key, || {
         let unknown = match beside {
             Some(beside) => Some(beside.part.silhouette(&beside.pose)?),
@@ -93,7 +100,8 @@ pub(super) fn searched(
                 Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
             let found =
                 part.see_beside(run.film, frame, unknown.as_ref(), |subject, image, _| {
-                    clicker.search(subject, image, middle, search_told(run, part, frame))
+                    let told = search_told(run, part, frame);
+                    clicker.search(subject, image, (places, middle), told)
                 })??;
             if let Some(found) = found {
                 return Ok(Some(found.pose));
