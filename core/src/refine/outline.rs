@@ -59,6 +59,14 @@ impl Sampling {
         turn: 0,
     };
 
+    /// Those that are taken in the frame, of a part of it that `[columns, rows]` come before.
+    pub(super) fn in_part(self, [columns, rows]: [usize; 2]) -> Self {
+        Self {
+            turn: self.turn + columns + 3 * rows,
+            ..self
+        }
+    }
+
     /// All along an edge, whatever its direction.
     fn takes(&self, column: usize, row: usize) -> bool {
         (column + 3 * row + self.turn).is_multiple_of(self.every)
@@ -288,6 +296,18 @@ mod tests {
                 if set { 0.0 } else { along.max(0.0) }
             }).sum();
             prop_assert!((f64::from(sample.weight) - weight).abs() < 1e-6);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_part_takes_the_samples_that_its_frame_takes(
+            columns in 0usize..50, rows in 0usize..50, column in 0usize..99, row in 0usize..99,
+            every in 1usize..8, turn in 0usize..8,
+        ) {
+            let frame = Sampling { every, turn, ..Sampling::ALL };
+            let part = frame.in_part([columns, rows]);
+            prop_assert_eq!(part.takes(column, row), frame.takes(columns + column, rows + row));
         }
     }
 

@@ -444,6 +444,7 @@ impl<'a> Problem<'a> {
             every: stage.every.unwrap_or(self.effort.every()),
             turn: stage.turn,
         };
+        let sampling = sampling.in_part(view.target.before());
         let Drawing {
             drawn,
             border,
