@@ -323,6 +323,10 @@ impl<'a> Problem<'a> {
             }
             next.pose = self.apply(&step, &next.pose);
             next.offset_px += fraction * more;
+            if self.is_known(&next.pose) {
+                *state = next;
+                return Ok(());
+            }
             self.pause().await;
             seen.samples = self.look(&mut seen.equations, &mut next, pass, memory)?;
         }
