@@ -13,7 +13,7 @@ use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
-    refine_paced, refine_unless,
+    refine_unless,
 };
 use crate::shortlist::{keep, take_out};
 
@@ -141,28 +141,16 @@ impl RivalRefinement<'_, '_> {
         Ok(())
     }
 
-    async fn refine(
-        &mut self,
-        pose: &Pose,
-        start: usize,
-        mirrored: bool,
-    ) -> Result<(), RefineError> {
-        let (model, views, options) = (self.model, self.views, self.options);
-        let refined = refine_paced(model, views, pose, options, self.memory, self.pace).await?;
-        self.keep(*pose, refined, start, mirrored);
-        Ok(())
-    }
-
-    /// Refines what a quick look led to, unless it leads on to a pose that is there already.
+    /// Refines a pose, unless it leads on to one that is there already: of an outline, because on a frame all are brought to the end.
     async fn go_on(
         &mut self,
-        led: &Pose,
+        pose: &Pose,
         (from, start, mirrored): (&Pose, usize, bool),
     ) -> Result<Went, RefineError> {
-        let answers = &*self.answers;
-        let known = |pose: &Pose| is_among(answers, pose);
+        let (answers, is_outline) = (&*self.answers, self.is_outline());
+        let known = |pose: &Pose| is_outline && is_among(answers, pose);
         let (model, views, options) = (self.model, self.views, self.options);
-        let refined = refine_unless(model, views, led, options, &known, self.memory, self.pace);
+        let refined = refine_unless(model, views, pose, options, &known, self.memory, self.pace);
         match refined.await? {
             None => Ok(Went::Back),
             Some(refined) => {
@@ -206,7 +194,7 @@ impl RivalRefinement<'_, '_> {
             }
         } else {
             for (start, pose) in starts.iter().enumerate() {
-                if let Err(error) = self.refine(pose, start, false).await {
+                if let Err(error) = self.go_on(pose, (pose, start, false)).await {
                     failure = Some(error);
                 }
             }

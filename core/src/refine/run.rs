@@ -64,7 +64,7 @@ pub fn refine_traced(
     at_once(&Pace::new(), work)
 }
 
-/// The same; `None` as soon as a pose is reached from which it is `known` where that leads.
+/// As [`refine_paced`]; `None` as soon as a pose is reached from which it is `known` where that leads.
 ///
 /// # Errors
 /// [`RefineError`].
