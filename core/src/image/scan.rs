@@ -11,7 +11,7 @@ use crate::image::contour::Point;
 
 /// Binary places of a fixed-point coordinate.
 const PLACES: u32 = 12;
-const ONE: i64 = 1 << PLACES;
+pub(crate) const ONE: i64 = 1 << PLACES;
 const HALF: i64 = ONE / 2;
 
 /// How far rounding moves a coordinate at most, pixels.
@@ -39,6 +39,14 @@ impl FixedPoint {
         column: i32::MIN,
         row: i32::MIN,
     };
+
+    /// No coordinate of fewer units is refused.
+    pub(crate) const BEYOND: u64 = MAX_COORDINATE as u64 * ONE as u64;
+
+    /// The point at so many units of 1/4096 pixel.
+    pub(crate) fn of_units(column: i32, row: i32) -> Self {
+        Self { column, row }
+    }
 
     /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
     #[must_use]
