@@ -3,6 +3,7 @@
 mod draw;
 mod facing;
 mod project;
+mod whole;
 mod winding;
 
 pub(crate) use draw::{for_each_span, remains};

@@ -13,7 +13,7 @@ use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
-    refine_paced,
+    refine_unless,
 };
 use crate::shortlist::{keep, take_out};
 
@@ -141,16 +141,23 @@ impl RivalRefinement<'_, '_> {
         Ok(())
     }
 
-    async fn refine(
+    /// Refines a pose, unless it leads on to one that is there already: of an outline, because on a frame all are brought to the end.
+    async fn go_on(
         &mut self,
         pose: &Pose,
-        start: usize,
-        mirrored: bool,
-    ) -> Result<(), RefineError> {
+        (from, start, mirrored): (&Pose, usize, bool),
+    ) -> Result<Went, RefineError> {
+        let (answers, is_outline) = (&*self.answers, self.is_outline());
+        let known = |pose: &Pose| is_outline && is_among(answers, pose);
         let (model, views, options) = (self.model, self.views, self.options);
-        let refined = refine_paced(model, views, pose, options, self.memory, self.pace).await?;
-        self.keep(*pose, refined, start, mirrored);
-        Ok(())
+        let refined = refine_unless(model, views, pose, options, &known, self.memory, self.pace);
+        match refined.await? {
+            None => Ok(Went::Back),
+            Some(refined) => {
+                self.keep(*from, refined, start, mirrored);
+                Ok(Went::On)
+            }
+        }
     }
 
     fn keep(&mut self, from: Pose, refined: Refined, start: usize, mirrored: bool) {
@@ -173,9 +180,12 @@ impl RivalRefinement<'_, '_> {
             self.begin_all(starts, &mut begun, &mut failure).await;
             for (start, begun) in &begun {
                 let (model, views, options) = (self.model, self.views, self.options);
-                let finished = finish(model, views, begun, options, self.memory, self.pace);
+                let answers = &*self.answers;
+                let known = |pose: &Pose| is_among(answers, pose);
+                let finished = finish(model, views, begun, options, &known, self.memory, self.pace);
                 match finished.await {
-                    Ok(refined) => {
+                    Ok(None) => {}
+                    Ok(Some(refined)) => {
                         let from = starts.get(*start).unwrap_or(&begun.pose);
                         self.keep(*from, refined, *start, false);
                     }
@@ -184,7 +194,7 @@ impl RivalRefinement<'_, '_> {
             }
         } else {
             for (start, pose) in starts.iter().enumerate() {
-                if let Err(error) = self.refine(pose, start, false).await {
+                if let Err(error) = self.go_on(pose, (pose, start, false)).await {
                     failure = Some(error);
                 }
             }
@@ -246,18 +256,21 @@ impl RivalRefinement<'_, '_> {
                     .views
                     .iter()
                     .all(|view| is_near(self.model, view, &mirrored, &pose, self.memory));
-                if near && self.leads_elsewhere(&mirrored).await {
+                if !near {
+                    continue;
+                }
+                if let Some(led) = self.leads_elsewhere(&mirrored).await {
                     // A mirror image that leads nowhere is no rival.
-                    let _ = self.refine(&mirrored, start, true).await;
+                    let _ = self.go_on(&led, (&mirrored, start, true)).await;
                 }
             }
         }
     }
 
-    /// Whether a quick look finds that a pose leads to what may fit as well as the best, and was not found before.
-    async fn leads_elsewhere(&mut self, start: &Pose) -> bool {
+    /// Where a quick look finds that a pose leads to what may fit as well as the best, and was not found before.
+    async fn leads_elsewhere(&mut self, start: &Pose) -> Option<Pose> {
         let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
-            return true;
+            return Some(*start);
         };
         let answers = &*self.answers;
         let known = |pose: &Pose| {
@@ -268,14 +281,14 @@ impl RivalRefinement<'_, '_> {
         let (model, views, options) = (self.model, self.views, self.options);
         let looked = probe(model, views, start, options, &known, self.memory, self.pace);
         let Ok(Some(looked)) = looked.await else {
-            return false;
+            return None;
         };
         let known = |RefinedRival { refined, .. }: &RefinedRival| {
             let apart = geodesic_deg(&refined.pose.rotation, &looked.pose.rotation);
             apart < blurred_deg(refined) && looked.loss > refined.loss / ALIKE
         };
         let limit = LOOKED_WORSE * best.refined.loss.max(LOOKED_PX2);
-        looked.loss <= limit && !self.answers.iter().any(known)
+        (looked.loss <= limit && !self.answers.iter().any(known)).then_some(looked.pose)
     }
 
     /// A quick look at where a start leads; nothing where it leads to what is `known`.
@@ -312,12 +325,15 @@ impl RivalRefinement<'_, '_> {
         for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
             let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
             let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
-            let led = self.probe(&start, &best.refined, back).await;
-            all_back &= matches!(led, Led::Back);
-            if let Led::To(found) = led {
-                // From there it leads somewhere.
-                let _ = self.refine(&found, best.start, best.mirrored).await;
-            }
+            all_back &= match self.probe(&start, &best.refined, back).await {
+                Led::Back => true,
+                Led::Nowhere => false,
+                Led::To(found) => {
+                    let came_from = (&found, best.start, best.mirrored);
+                    // From there it leads somewhere.
+                    matches!(self.go_on(&found, came_from).await, Ok(Went::Back))
+                }
+            };
         }
         all_back
     }
@@ -341,8 +357,9 @@ impl RivalRefinement<'_, '_> {
         let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(apart) {
             if let Led::To(found) = self.probe(start, &best.refined, BACK_DEG).await {
+                let came_from = (&found, best.start, best.mirrored);
                 // From there it leads somewhere.
-                let _ = self.refine(&found, best.start, best.mirrored).await;
+                let _ = self.go_on(&found, came_from).await;
             }
         }
     }
@@ -374,6 +391,20 @@ enum Led {
     Nowhere,
     /// To a pose that may be better.
     To(Pose),
+}
+
+/// Whether what a quick look led to was there already.
+enum Went {
+    Back,
+    On,
+}
+
+/// Whether a pose that is being refined has come to one that was.
+fn is_among(answers: &[RefinedRival], pose: &Pose) -> bool {
+    answers.iter().any(|RefinedRival { refined, .. }| {
+        // Noise leaves several minima beside each other: of those the best is wanted.
+        is_on_the_way(pose, &refined.pose, BACK_DEG)
+    })
 }
 
 /// Whether a quick look that has come to `pose` will end within so many degrees of `other`: it is well on the way there.

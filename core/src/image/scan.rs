@@ -40,6 +40,14 @@ impl FixedPoint {
         row: i32::MIN,
     };
 
+    /// No coordinate of fewer units is refused.
+    pub(crate) const BEYOND: u64 = MAX_COORDINATE as u64 * ONE as u64;
+
+    /// The point at so many units of 1/4096 pixel.
+    pub(crate) fn of_units(column: i32, row: i32) -> Self {
+        Self { column, row }
+    }
+
     /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
     #[must_use]
     pub(crate) fn from_point(point: Point) -> Option<Self> {

@@ -59,6 +59,14 @@ impl Sampling {
         turn: 0,
     };
 
+    /// Those that are taken in the frame, of a part of it that `[columns, rows]` come before.
+    pub(super) fn in_part(self, [columns, rows]: [usize; 2]) -> Self {
+        Self {
+            turn: self.turn + columns + 3 * rows,
+            ..self
+        }
+    }
+
     /// All along an edge, whatever its direction.
     fn takes(&self, column: usize, row: usize) -> bool {
         (column + 3 * row + self.turn).is_multiple_of(self.every)
@@ -110,6 +118,7 @@ impl DrawnModel<'_> {
         let end = rows.end;
         for row in rows {
             places.begin(row, count);
+            let around = Around::of(self.drawn, row);
             for column in border_columns(self.drawn, row) {
                 if column == 0 || column + 1 >= width {
                     continue;
@@ -117,7 +126,7 @@ impl DrawnModel<'_> {
                 if !self.sampling.takes(column, row) {
                     continue;
                 }
-                let Some(pixel) = sample_at(self.drawn, column, row) else {
+                let Some(pixel) = around.sample_at(column) else {
                     continue;
                 };
                 if let Some(listed) = border.get_mut(count) {
@@ -180,62 +189,81 @@ const ROWS: [[i8; 2]; 1 << SIDE] = {
     rows
 };
 
-/// The outline in a border pixel: its outward normal, from the slope of the mask smoothed over
-/// 7 x 7 pixels, and its arc length, from the sides that face outside: along a border with the
-/// normal `n` there are `|n_x|` vertical and `|n_y|` horizontal sides for each pixel of length,
-/// and `n_x^2 + n_y^2 = 1`.
-fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> {
-    let window: [u32; SIDE] = core::array::from_fn(|down| {
-        let row = (row + down).checked_sub(WINDOW);
-        row.map_or(0, |row| bits_round(mask.row(row), column))
-    });
-    let mut slope = [0i32; 2];
-    for ((down, &bits), tent) in window.iter().enumerate().zip(TENT) {
-        let [sum, right] = ROWS.get(bits as usize).copied().unwrap_or_default();
-        let (sum, right) = (i32::from(sum), i32::from(right));
-        slope[0] -= tent * right;
-        slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
+/// A row of a mask with those from [`WINDOW`] above to as many below it; none where the mask has none.
+struct Around<'m> {
+    row: usize,
+    rows: [&'m [Word]; SIDE],
+}
+
+impl<'m> Around<'m> {
+    fn of(mask: &Mask<'m>, row: usize) -> Self {
+        let rows = core::array::from_fn(|down| {
+            let row = (row + down).checked_sub(WINDOW);
+            row.map_or(&[] as &[Word], |row| mask.row(row))
+        });
+        Self { row, rows }
     }
-    let [right, down] = slope;
-    if slope == [0; 2] {
-        return None;
-    }
-    // As far as sides face outside, times the length of the slope: whole numbers.
-    let is_set = |right: usize, down: usize| {
-        let row = window.get(down);
-        row.is_some_and(|bits| bits >> right & 1 == 1)
-    };
-    let sides = [(4, 3, right), (2, 3, -right), (3, 4, down), (3, 2, -down)];
-    let mut facing = 0;
-    for &(right, down, along) in &sides {
-        if along > 0 && !is_set(right, down) {
-            facing += along;
+
+    /// The outline in a border pixel: its outward normal, from the slope of the mask smoothed over
+    /// 7 x 7 pixels, and its arc length, from the sides that face outside: along a border with the
+    /// normal `n` there are `|n_x|` vertical and `|n_y|` horizontal sides for each pixel of length,
+    /// and `n_x^2 + n_y^2 = 1`.
+    fn sample_at(&self, column: usize) -> Option<BorderPixel> {
+        let mut window = [0; SIDE];
+        for (bits, row) in window.iter_mut().zip(&self.rows) {
+            *bits = bits_round(row, column);
         }
+        let mut slope = [0i32; 2];
+        for ((down, &bits), tent) in window.iter().enumerate().zip(TENT) {
+            let [sum, right] = ROWS.get(bits as usize).copied().unwrap_or_default();
+            let (sum, right) = (i32::from(sum), i32::from(right));
+            slope[0] -= tent * right;
+            slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
+        }
+        let [right, down] = slope;
+        if slope == [0; 2] {
+            return None;
+        }
+        // As far as sides face outside, times the length of the slope: whole numbers.
+        let is_set = |right: usize, down: usize| {
+            let row = window.get(down);
+            row.is_some_and(|bits| bits >> right & 1 == 1)
+        };
+        let sides = [(4, 3, right), (2, 3, -right), (3, 4, down), (3, 2, -down)];
+        let mut facing = 0;
+        for &(right, down, along) in &sides {
+            if along > 0 && !is_set(right, down) {
+                facing += along;
+            }
+        }
+        let length = sqrt_single((right * right + down * down) as f32);
+        Some(BorderPixel {
+            column: column as u16,
+            row: self.row as u16,
+            slope: slope.map(|component| component as i16),
+            weight: facing as f32 / length,
+            near: f32::INFINITY,
+            ..BorderPixel::EMPTY
+        })
     }
-    let length = sqrt_single((right * right + down * down) as f32);
-    Some(BorderPixel {
-        column: column as u16,
-        row: row as u16,
-        slope: slope.map(|component| component as i16),
-        weight: facing as f32 / length,
-        near: f32::INFINITY,
-        ..BorderPixel::EMPTY
-    })
 }
 
 /// The pixels of a row from [`WINDOW`] to the left of a column to as many to its right, from the
 /// lowest bit; none where the row has none.
-fn bits_round(row: &[Word], column: usize) -> u32 {
-    const ALL: u64 = (1 << SIDE) - 1;
-    let word = |at: usize| u64::from(row.get(at).copied().unwrap_or(0));
+fn bits_round(row: &[Word], column: usize) -> Word {
+    const ALL: Word = (1 << SIDE) - 1;
+    let word = |at: usize| row.get(at).copied().unwrap_or(0);
     let bits = match column.checked_sub(WINDOW) {
         Some(first) => {
-            let at = first / WORD_BITS;
-            (word(at) | word(at + 1) << WORD_BITS) >> (first % WORD_BITS)
+            let (at, right) = (first / WORD_BITS, first % WORD_BITS);
+            match right + SIDE > WORD_BITS {
+                true => word(at) >> right | word(at + 1) << (WORD_BITS - right),
+                false => word(at) >> right,
+            }
         }
         None => word(0) << (WINDOW - column),
     };
-    (bits & ALL) as u32
+    bits & ALL
 }
 
 #[cfg(test)]
@@ -273,7 +301,7 @@ mod tests {
             let mask = Mask::new(&words, 70, 9).expect("no bit beyond the last column");
             let [right, down] = slope(&mask, column, row).map(f64::from);
             let length = sqrt(right * right + down * down);
-            let sample = sample_at(&mask, column, row);
+            let sample = Around::of(&mask, row).sample_at(column);
             prop_assert_eq!(sample.is_none(), length == 0.0);
             let Some(sample) = sample else { return Ok(()) };
             prop_assert_eq!(sample.slope.map(f64::from), [right, down]);
@@ -288,6 +316,18 @@ mod tests {
                 if set { 0.0 } else { along.max(0.0) }
             }).sum();
             prop_assert!((f64::from(sample.weight) - weight).abs() < 1e-6);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_part_takes_the_samples_that_its_frame_takes(
+            columns in 0usize..50, rows in 0usize..50, column in 0usize..99, row in 0usize..99,
+            every in 1usize..8, turn in 0usize..8,
+        ) {
+            let frame = Sampling { every, turn, ..Sampling::ALL };
+            let part = frame.in_part([columns, rows]);
+            prop_assert_eq!(part.takes(column, row), frame.takes(columns + column, rows + row));
         }
     }
 
@@ -312,7 +352,7 @@ mod tests {
                     && set(column, row - 1)
                     && set(column, row + 1);
                 assert!(set(column, row) && !inside);
-                let sample = sample_at(&mask, column, row).expect("a slope");
+                let sample = Around::of(&mask, row).sample_at(column).expect("a slope");
                 length += f64::from(sample.weight);
                 let (x, y) = (column as f64 + 0.5 - centre, row as f64 + 0.5 - centre);
                 let [right, down] = sample.normal().map(f64::from);

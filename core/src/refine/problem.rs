@@ -323,6 +323,10 @@ impl<'a> Problem<'a> {
             }
             next.pose = self.apply(&step, &next.pose);
             next.offset_px += fraction * more;
+            if self.is_known(&next.pose) {
+                *state = next;
+                return Ok(());
+            }
             self.pause().await;
             seen.samples = self.look(&mut seen.equations, &mut next, pass, memory)?;
         }
@@ -444,6 +448,7 @@ impl<'a> Problem<'a> {
             every: stage.every.unwrap_or(self.effort.every()),
             turn: stage.turn,
         };
+        let sampling = sampling.in_part(view.target.before());
         let Drawing {
             drawn,
             border,

@@ -64,6 +64,25 @@ pub fn refine_traced(
     at_once(&Pace::new(), work)
 }
 
+/// As [`refine_paced`]; `None` as soon as a pose is reached from which it is `known` where that leads.
+///
+/// # Errors
+/// [`RefineError`].
+pub(crate) async fn refine_unless(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    known: &dyn Fn(&Pose) -> bool,
+    memory: &mut RefineMemory<'_>,
+    pace: &Pace,
+) -> Result<Option<Refined>, RefineError> {
+    let mut problem = Problem::refining(model, views, start, options, memory)?;
+    (problem.known, problem.pace) = (Some(known), Some(pace));
+    let state = from_start(&problem, start, options, memory, &mut |_| ()).await?;
+    Ok((!problem.is_known(&state.pose)).then_some(state))
+}
+
 /// All stages.
 async fn from_start(
     problem: &Problem<'_>,
@@ -105,7 +124,7 @@ pub(crate) async fn begin(
     Ok((!problem.is_known(&state.pose)).then_some(state))
 }
 
-/// What [`refine`] makes of a start whose first stage [`begin`] has gone.
+/// What [`refine`] makes of a start whose first stage [`begin`] has gone; `None` as soon as a pose is reached that is `known`.
 ///
 /// # Errors
 /// [`RefineError`].
@@ -114,15 +133,16 @@ pub(crate) async fn finish(
     views: &[CameraView<'_>],
     begun: &Refined,
     options: RefineOptions,
+    known: &dyn Fn(&Pose) -> bool,
     memory: &mut RefineMemory<'_>,
     pace: &Pace,
-) -> Result<Refined, RefineError> {
+) -> Result<Option<Refined>, RefineError> {
     let mut problem = Problem::refining(model, views, &begun.pose, options, memory)?;
-    problem.pace = Some(pace);
+    (problem.known, problem.pace) = (Some(known), Some(pace));
     let (mut state, mut seen) = (*begun, Seen::new());
     let trace = &mut |_: &Iterate| ();
     go_on(&problem, options, &mut state, &mut seen, memory, trace).await?;
-    Ok(state)
+    Ok((!problem.is_known(&state.pose)).then_some(state))
 }
 
 /// All stages but the first, whose end `seen` is where it is at hand.
@@ -137,6 +157,9 @@ async fn go_on(
     let Pass { drawn, .. } = problem.first_pass();
     let mut pass = problem.first_pass();
     for index in 1..STAGES {
+        if problem.is_known(&state.pose) {
+            return Ok(());
+        }
         pass = Pass {
             index,
             sigma_px: state.robust_sigma_px,
@@ -147,6 +170,9 @@ async fn go_on(
         if !drawn || problem.steps(&pass) > 0 {
             problem.run(&pass, state, seen, memory, trace).await?;
         }
+    }
+    if problem.is_known(&state.pose) {
+        return Ok(());
     }
     if !problem.has_film() {
         problem.polish(&pass, state, seen, memory, trace).await?;

@@ -73,6 +73,15 @@ impl Target<'_> {
         }
     }
 
+    /// Columns and rows of the frame that come before those of the part of it that is held.
+    pub(super) fn before(&self) -> [usize; 2] {
+        let crop = match self {
+            Self::Silhouette(silhouette) => silhouette.crop(),
+            Self::Image(_) => None,
+        };
+        crop.map_or([0; 2], |crop| [crop.columns().start, crop.rows().start])
+    }
+
     /// Columns and rows.
     pub(super) fn size(&self) -> (usize, usize) {
         match self {

@@ -7,8 +7,9 @@ use crate::image::contour::Point;
 use crate::image::scan::FixedPoint;
 use crate::math::{Vector3, dot};
 use crate::memory::{TooLittleMemory, first};
-use crate::mesh::Mesh;
+use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
+use crate::render::whole::{WORTH_IT, WholeImages};
 
 /// Why a model cannot be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -38,6 +39,9 @@ pub type Projected = FixedPoint;
 pub(crate) struct Images<'i> {
     camera: &'i Camera,
     pose: &'i Pose,
+    bounds: Bounds,
+    /// Made where it is first wanted.
+    whole: Option<Option<WholeImages>>,
     vertices: &'i [[f32; 3]],
     slots: &'i mut [Projected],
     /// Of slots that are for several vertices: whose image each holds, four in one place of memory.
@@ -76,6 +80,8 @@ impl<'i> Images<'i> {
         Self {
             camera,
             pose,
+            bounds: mesh.bounds(),
+            whole: None,
             vertices,
             slots,
             owners,
@@ -112,22 +118,37 @@ impl<'i> Images<'i> {
         let Some(place) = self.vertices.get(vertex) else {
             return FixedPoint::NONE;
         };
-        let image = || image_of(self.camera, self.pose, place).0;
         if self.slots.len() < self.vertices.len() {
             let at = Shared::of(vertex, self.slots.len());
             return at.image(self.slots, self.owners).unwrap_or_else(|| {
-                let image = image();
+                let image = self.made(place);
                 at.keep(image, self.slots, self.owners);
                 image
             });
         }
-        let Some(slot) = self.slots.get_mut(vertex) else {
-            return image();
-        };
-        if *slot == FixedPoint::NONE {
-            *slot = image();
+        match self.slots.get(vertex) {
+            Some(&image) if image != FixedPoint::NONE => image,
+            _ => {
+                let image = self.made(place);
+                if let Some(slot) = self.slots.get_mut(vertex) {
+                    *slot = image;
+                }
+                image
+            }
         }
-        *slot
+    }
+
+    fn made(&mut self, place: &[f32; 3]) -> Projected {
+        let whole = match WORTH_IT {
+            true => self
+                .whole
+                .get_or_insert_with(|| WholeImages::new(self.camera, self.pose, &self.bounds))
+                .as_ref(),
+            false => None,
+        };
+        whole
+            .and_then(|whole| whole.of(place))
+            .unwrap_or_else(|| image_of(self.camera, self.pose, place).0)
     }
 }
 
@@ -204,7 +225,7 @@ pub(crate) fn project<'s>(
 
 /// The image of a vertex, and whether it has one. Without a branch: several at once.
 #[inline(always)]
-fn image_of(camera: &Camera, pose: &Pose, vertex: &[f32; 3]) -> (FixedPoint, bool) {
+pub(super) fn image_of(camera: &Camera, pose: &Pose, vertex: &[f32; 3]) -> (FixedPoint, bool) {
     let model: Vector3 = vertex.map(f64::from);
     let [x, y, z]: Vector3 =
         core::array::from_fn(|k| dot(&pose.rotation[k], &model) + pose.translation[k]);

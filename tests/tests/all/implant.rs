@@ -17,7 +17,7 @@ use fluoropose::{Mask, RefineOptions, Silhouette};
 use fluoropose_laboratory::finding::{ViewOptions, build_library};
 
 use crate::made_implant::{
-    DISTANCE, Words, camera, drawn, is_cut_off, made_femur, made_tibia, poses,
+    DISTANCE, Words, camera, drawn, is_cut_off, made_femur, made_tibia, many_poses,
 };
 
 /// What is found of a silhouette in all of the frame, with a model that was linked here.
@@ -81,7 +81,7 @@ fn a_part_of_the_frame_leads_to_the_pose_that_the_frame_leads_to() {
     let mut at_border = 0;
     for (own, words) in [made_femur(), made_tibia()] {
         let file = ImplantFile::open(words.bytes()).expect("whole");
-        for euler in poses() {
+        for euler in many_poses().take(48) {
             let frame = drawn(&own, euler);
             let mask = Mask::new(&frame, 512, 512).expect("valid");
             if is_cut_off(&mask) {

@@ -96,9 +96,14 @@ pub(crate) fn drawn(model: &OwnedModel, euler: EulerPose) -> Vec<u32> {
     words
 }
 
-/// Somewhere in the frame, at its border too.
+/// A few somewhere in the frame, at its border too.
 pub(crate) fn poses() -> impl Iterator<Item = EulerPose> {
-    (0..16).map(|k| {
+    many_poses().take(16)
+}
+
+/// As many as are wanted.
+pub(crate) fn many_poses() -> impl Iterator<Item = EulerPose> {
+    (0i32..).map(|k| {
         let draw = |irrational: f64, reach: f64| {
             reach * (2.0 * (irrational * f64::from(k + 1)).fract() - 1.0)
         };

@@ -12,7 +12,8 @@ const ROUNDINGS: f32 = 12.0 * f32::EPSILON;
 ///
 /// Doubled area times distance from the plane is a determinant of two sides and the way from the camera. Sides are
 /// differences of numbers of 32 bits, so they err by one rounding of themselves alone, and the determinant by less than
-/// twelve roundings of the product of three lengths; a doubled area is below the product of its longest side with itself.
+/// twelve roundings of the product of three lengths; a doubled area is below the product of its longest side with itself. That
+/// side is no longer than the two that are measured together.
 pub(super) fn faces_surely(
     place: &[f32; 3],
     [per_mm, least, rounding]: [f32; 3],
@@ -21,8 +22,6 @@ pub(super) fn faces_surely(
     let minus = |p: &[f32; 3], q: &[f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     // No less than the length.
     let length = |p: &[f32; 3]| p[0].abs() + p[1].abs() + p[2].abs();
-    // None of them is a NaN: the language's own `max` would ask.
-    let longer = |a: f32, b: f32| if a > b { a } else { b };
     let (edge, way) = (minus(to, from), minus(place, from));
     // Both determinants are of the edge as it is run forth, the way and one more side.
     let across = [
@@ -34,8 +33,8 @@ pub(super) fn faces_surely(
     let along = length(&edge);
     let from_plane = |third: &[f32; 3]| {
         let side = minus(third, from);
-        let longest = longer(longer(along, length(&side)), length(&minus(third, to)));
-        let margin = longest * per_mm + least + longest * longest * rounding;
+        let longest = along + length(&side);
+        let margin = longest * (per_mm + longest * rounding) + least;
         let distance = across[0] * side[0] + across[1] * side[1] + across[2] * side[2];
         (distance.abs() > margin).then_some(distance)
     };
