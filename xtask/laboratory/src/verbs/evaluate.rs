@@ -3,6 +3,7 @@
 mod found;
 mod inside;
 mod limits;
+mod mirrored;
 mod print;
 mod reference;
 mod request;

@@ -6,6 +6,7 @@ mod film;
 mod follow;
 mod journal;
 mod metal;
+mod mirrored;
 mod part;
 mod partner;
 mod record;

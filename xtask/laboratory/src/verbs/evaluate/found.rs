@@ -16,6 +16,7 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::RefineBuffers;
 use rayon::prelude::*;
 
+use super::mirrored::doubt_parts;
 use super::reference::Reference;
 use super::request::Request;
 use crate::choice::{Decision, decide};
@@ -26,6 +27,7 @@ use crate::finding::{
     build_library, find_poses, first_poses, offset_words,
 };
 use crate::measure::accuracy::{in_front, median_absolute};
+use crate::noise::DisturbanceOptions;
 use crate::sequence::{Folders, Seen, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 
@@ -66,6 +68,11 @@ impl Found {
     pub(super) fn poses(&self) -> Vec<Option<Pose>> {
         let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
         self.decisions.iter().map(pose).collect()
+    }
+
+    /// Its masks as they are.
+    pub(super) fn masks(&self) -> Result<Sequence<'_>> {
+        self.files.disturbed(&DisturbanceOptions::default())
     }
 
     /// The same as rows of a pose file.
@@ -124,6 +131,7 @@ pub(super) fn find_parts<'s>(
     if request.method == Method::Image {
         doubt_unusual(&mut parts);
     }
+    doubt_parts(&mut parts)?;
     Ok(parts)
 }
 
@@ -204,7 +212,7 @@ impl<'s> Part<'s> {
 
     /// The rotation from the field's axes to the model's, as the study states it or the shape tells it. Where that does not
     /// tell which way is up, the directions alone, which the tilt asks for.
-    fn axes(&self) -> Result<Option<Pose>> {
+    pub(super) fn axes(&self) -> Result<Option<Pose>> {
         let Some(role) = self.component.role() else {
             return Ok(None);
         };

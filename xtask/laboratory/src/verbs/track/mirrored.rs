@@ -1,0 +1,85 @@
+//! Components of a film that lie beside each other as in no knee: its frames may be mirrored.
+
+use anyhow::Result;
+use fluoropose::finder::FlippedKnee;
+use fluoropose::follow::Cell;
+use fluoropose::joint::beside::{Beside, Middles};
+use fluoropose::mesh::Model;
+use fluoropose::pose::Pose;
+use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
+
+use super::part::Part;
+use super::run::Run;
+use crate::choice::looked_at_flipped;
+use crate::files::Role;
+
+/// What is told of each frame; nothing where the film does not have one knee, or its axes are not known.
+pub(super) fn beside(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    films: &[Vec<Cell>],
+) -> Result<Vec<Option<Beside>>> {
+    let known = |role| {
+        let at = parts.iter().position(|part| part.role() == Some(role))?;
+        Some((&parts[at], parts[at].axes?, poses(&films[at])))
+    };
+    let (Some(femur), Some(tibia)) = (known(Role::Femur), known(Role::Tibia)) else {
+        return Ok(Vec::new());
+    };
+    let models = [femur.0.model(), tibia.0.model()];
+    let meshes = models.map(|model| *model.mesh());
+    let Some(middles) = Middles::new((meshes[0], &femur.1), (meshes[1], &tibia.1)) else {
+        return Ok(Vec::new());
+    };
+    let mut told = middles.judge_poses(&femur.2, &tibia.2);
+    if told.iter().all(Option::is_none) {
+        return Ok(told);
+    }
+    if let Some(knee) = FlippedKnee::new((&models[0], &femur.1), (&models[1], &tibia.1)) {
+        let both = [(femur.0, &femur.2), (tibia.0, &tibia.2)];
+        look_flipped(run, &knee, both, &mut told)?;
+    }
+    Ok(told)
+}
+
+fn poses(film: &[Cell]) -> Vec<Option<Pose>> {
+    let pose = |cell: &Cell| cell.found().map(|found| found.pose);
+    film.iter().map(pose).collect()
+}
+
+/// Looks at some of the frames of which something is told as if they were flipped, and adds what is so there.
+fn look_flipped(
+    run: &Run<'_>,
+    knee: &FlippedKnee,
+    both: [(&Part<'_>, &Vec<Option<Pose>>); 2],
+    told: &mut [Option<Beside>],
+) -> Result<()> {
+    let mut buffers = RefineBuffers::default();
+    let mut found = Vec::new();
+    for frame in looked_at_flipped(told) {
+        let mut fit = |(part, poses): (&Part<'_>, &Vec<Option<Pose>>)| -> Result<Option<Pose>> {
+            let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
+                return Ok(None);
+            };
+            let model: Model<'_> = part.model();
+            part.see(run.film, frame, |_, image, _| {
+                let view = CameraView::only(&part.camera, *image);
+                let options = RefineOptions::default();
+                knee.fit(
+                    role.component(),
+                    (&model, &pose),
+                    view,
+                    options,
+                    &mut buffers,
+                )
+            })
+        };
+        let [femur, tibia] = both;
+        let (femur, tibia) = (fit(femur)?, fit(tibia)?);
+        found.push(femur.zip(tibia).map(<[Pose; 2]>::from));
+    }
+    for told in told.iter_mut().flatten() {
+        *told = knee.judge(*told, &found);
+    }
+    Ok(())
+}
