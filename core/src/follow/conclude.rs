@@ -60,8 +60,10 @@ pub fn conclude(
         femur.distrust_impossible(&mut film);
     }
     for (one, told) in film.iter_mut().zip(beside.joint) {
-        if let Some(told) = told {
-            one.distrust(Distrust::Mirrored(*told));
+        match told {
+            Some(told) if told.of_film => one.distrust_before_all(Distrust::Mirrored(*told)),
+            Some(told) => one.distrust(Distrust::Mirrored(*told)),
+            None => {}
         }
     }
     film

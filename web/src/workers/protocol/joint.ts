@@ -73,5 +73,17 @@ export interface JointProtocol {
   publish: { input: { readonly film: PublishedFilm; readonly what: JointText }; output: string; progress: never };
   /** The figure of four panels as PDF, the same as the command line's. Throws while no joint is open. */
   figurePdf: { input: PublishedFilm; output: Uint8Array<ArrayBuffer>; progress: never };
+  /** What is told of each frame of a film whose components lie beside each other as in no knee, without its full stop; null where nothing is. */
+  lyingBeside: {
+    input: {
+      /** Of models and axes. */
+      readonly key: string;
+      readonly femur: JointPart;
+      readonly tibia: JointPart;
+      readonly frames: readonly { readonly femur: PoseNumbers | null; readonly tibia: PoseNumbers | null }[];
+    };
+    output: readonly (string | null)[];
+    progress: never;
+  };
   poseText: { input: PoseText; output: string; progress: never };
 }

@@ -1,6 +1,6 @@
 //! What is made of components that lie beside each other as in no knee.
 
-use fluoropose::finder::Doubt;
+use fluoropose::finder::{Doubt, Verdict};
 use fluoropose::joint::beside::Beside;
 
 use super::decide::Decision;
@@ -12,7 +12,12 @@ const LOOKED_AT: usize = 3;
 pub fn doubt_mirrored(decisions: &mut [Option<Decision>], told: &[Option<Beside>]) {
     for (decision, told) in decisions.iter_mut().zip(told) {
         if let (Some(decision), Some(told)) = (decision, told) {
-            decision.verdict = decision.verdict.or_doubt(Some(Doubt::Mirrored(*told)));
+            let doubt = Doubt::Mirrored(*told);
+            decision.verdict = match decision.verdict {
+                // It explains any other doubt.
+                Verdict::Doubtful(_) if told.of_film => Verdict::Doubtful(doubt),
+                verdict => verdict.or_doubt(Some(doubt)),
+            };
         }
     }
 }

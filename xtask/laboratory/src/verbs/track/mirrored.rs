@@ -9,6 +9,7 @@ use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
 
 use super::part::Part;
+use super::request::Told;
 use super::run::Run;
 use crate::choice::looked_at_flipped;
 use crate::files::Role;
@@ -39,7 +40,22 @@ pub(super) fn beside(
         let both = [(femur.0, &femur.2), (tibia.0, &tibia.2)];
         look_flipped(run, &knee, both, &mut told)?;
     }
+    say(run, &told);
     Ok(told)
+}
+
+/// Says what is told of the film, or of the first frame, once.
+fn say(run: &Run<'_>, told: &[Option<Beside>]) {
+    let known = told.iter().enumerate();
+    let mut known = known.filter_map(|(frame, told)| Some((frame, (*told)?)));
+    if let Some((frame, first)) = known.next() {
+        let more = match known.count() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let remark = format!("frame {}{more}: {first}", frame + 1);
+        (run.request.listener)(Told::Remark(remark));
+    }
 }
 
 fn poses(film: &[Cell]) -> Vec<Option<Pose>> {
