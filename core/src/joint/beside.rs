@@ -41,8 +41,18 @@ pub struct Beside {
     pub most_mm: f64,
     /// Whether that is the median of a film, and not of a frame.
     pub of_film: bool,
-    /// How far they lie beside each other with the picture flipped, where both fit as well then and that is a knee, mm.
-    pub flipped_mm: Option<f64>,
+    /// What is so with the picture flipped, where both components fit as well then and that is a knee.
+    pub flipped: Option<Flipped>,
+}
+
+/// A knee of which the picture was flipped left to right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Flipped {
+    /// How far its components lie beside each other, mm.
+    pub mm: f64,
+    /// How many times as much remains between the outlines without flipping; above 1 both fit better flipped.
+    pub times: f64,
 }
 
 impl Middles {
@@ -101,14 +111,21 @@ impl Middles {
         femur: &[Option<Pose>],
         tibia: &[Option<Pose>],
     ) -> alloc::vec::Vec<Option<Beside>> {
+        let apart = self.apart_of(femur, tibia);
+        let mut told = alloc::vec![None; apart.len()];
+        self.judge(&apart, &mut alloc::vec![0.0; apart.len()], &mut told);
+        told
+    }
+
+    /// [`Self::apart_mm`] of each frame, NaN where a pose is missing.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn apart_of(&self, femur: &[Option<Pose>], tibia: &[Option<Pose>]) -> alloc::vec::Vec<f64> {
         let apart = |(femur, tibia): (&Option<Pose>, &Option<Pose>)| {
             let both = femur.as_ref().zip(tibia.as_ref());
             both.map_or(f64::NAN, |(femur, tibia)| self.apart_mm(femur, tibia))
         };
-        let apart: alloc::vec::Vec<f64> = femur.iter().zip(tibia).map(apart).collect();
-        let mut told = alloc::vec![None; apart.len()];
-        self.judge(&apart, &mut alloc::vec![0.0; apart.len()], &mut told);
-        told
+        femur.iter().zip(tibia).map(apart).collect()
     }
 
     fn told(&self, mm: f64, of_film: bool) -> Option<Beside> {
@@ -117,7 +134,7 @@ impl Middles {
             mm,
             most_mm,
             of_film,
-            flipped_mm: None,
+            flipped: None,
         })
     }
 }
@@ -143,27 +160,31 @@ impl fmt::Display for Beside {
             mm,
             most_mm,
             of_film,
-            flipped_mm,
+            flipped,
         } = *self;
-        write!(
-            f,
-            "the tray would lie {} mm beside the femoral component{}, where a knee allows {} mm: ",
-            Decimal::new(mm, 0),
-            if of_film {
+        if mm > most_mm {
+            let over = if of_film {
                 " over the film (median)"
             } else {
                 ""
-            },
-            Decimal::new(most_mm, 0),
-        )?;
+            };
+            let (mm, most_mm) = (Decimal::new(mm, 0), Decimal::new(most_mm, 0));
+            write!(
+                f,
+                "the tray would lie {mm} mm beside the femoral component{over}, where a knee allows {most_mm} mm: "
+            )?;
+        } else {
+            f.write_str("both components fit better with the picture flipped: ")?;
+        }
         f.write_str(match of_film {
             true => "are the pictures mirrored, or the models those of the other side of the body?",
             false => "is the picture mirrored, is a model that of the other side of the body, or is one of the poses wrong?",
         })?;
-        match flipped_mm {
-            Some(mm) => write!(
+        match flipped {
+            Some(Flipped { mm, times }) => write!(
                 f,
-                " Flipped left to right both fit and lie {} mm beside each other: flip pictures and masks, or take the models of the other side",
+                " Flipped left to right both fit ({} times as much remains without) and lie {} mm beside each other: flip pictures and masks, or take the models of the other side",
+                Decimal::new(times, 1),
                 Decimal::new(mm, 0)
             ),
             None => f.write_str(

@@ -139,15 +139,28 @@ fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
         mm: 22.6,
         most_mm: 14.9,
         of_film: true,
-        flipped_mm: None,
+        flipped: None,
     };
     let words = format!("{beside}");
     for part in ["23 mm beside", "15 mm", "median", "mirrored", "other side"] {
         assert!(words.contains(part), "{words}");
     }
-    beside.flipped_mm = Some(1.2);
+    beside.flipped = Some(Flipped {
+        mm: 1.2,
+        times: 1.84,
+    });
     let words = format!("{beside}");
-    assert!(words.contains("both fit and lie 1 mm"), "{words}");
+    assert!(
+        words.contains("both fit (1.8 times as much remains without) and lie 1 mm"),
+        "{words}"
+    );
     beside.of_film = false;
     assert!(format!("{beside}").contains("is one of the poses wrong?"));
+    // The fit alone tells it.
+    beside.mm = 3.0;
+    let words = format!("{beside}");
+    assert!(
+        words.contains("both components fit better") && !words.contains("beside the femoral"),
+        "{words}"
+    );
 }

@@ -22,9 +22,10 @@ pub fn doubt_mirrored(decisions: &mut [Option<Decision>], told: &[Option<Beside>
     }
 }
 
-/// Those of the frames of which something is told that are looked at as if they were flipped: some, spread over all of them.
-pub fn looked_at_flipped(told: &[Option<Beside>]) -> Vec<usize> {
-    let frames: Vec<usize> = (0..told.len()).filter(|&k| told[k].is_some()).collect();
+/// Those of the frames with both poses that are looked at as if they were flipped: some, spread over all of them. `apart` is how far the
+/// components lie beside each other in each.
+pub fn looked_at_flipped(apart: &[f64]) -> Vec<usize> {
+    let frames: Vec<usize> = (0..apart.len()).filter(|&k| apart[k].is_finite()).collect();
     let step = frames.len().div_ceil(LOOKED_AT).max(1);
     frames
         .iter()

@@ -1,11 +1,10 @@
 //! Components of a study that lie beside each other as in no knee: their masks may be mirrored.
 
 use anyhow::Result;
-use fluoropose::finder::FlippedKnee;
+use fluoropose::finder::{FlippedFit, FlippedKnee};
 use fluoropose::joint::beside::{Beside, Middles};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::anatomy::KneeComponent;
-use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
 use fluoropose_report::counted;
 
@@ -38,13 +37,13 @@ pub(super) fn doubt_parts(parts: &mut [Part<'_>]) -> Result<()> {
             continue;
         };
         let found = [&femur.found[number], &tibia.found[other]];
-        let mut told = middles.judge_poses(&found[0].poses(), &found[1].poses());
-        if told.iter().all(Option::is_none) {
-            continue;
-        }
+        let poses = found.map(Found::poses);
+        let mut told = middles.judge_poses(&poses[0], &poses[1]);
+        let apart = middles.apart_of(&poses[0], &poses[1]);
         let models = [femur.model.as_model(), tibia.model.as_model()];
         if let Some(knee) = FlippedKnee::new((&models[0], &femoral), (&models[1], &tibial)) {
-            look_flipped(&knee, &models, found, &mut told)?;
+            let fits = look_flipped(&knee, &models, found, &apart)?;
+            knee.judge(&mut told, &apart, &fits);
         }
         say(&source, &told);
         doubt_mirrored(&mut femur.found[number].decisions, &told);
@@ -53,17 +52,17 @@ pub(super) fn doubt_parts(parts: &mut [Part<'_>]) -> Result<()> {
     Ok(())
 }
 
-/// Looks at some of the frames of which something is told as if their pictures were flipped, and adds what is so there.
+/// Looks at some of the frames as if their pictures were flipped.
 fn look_flipped(
     knee: &FlippedKnee,
     models: &[Model<'_>; 2],
     found: [&Found; 2],
-    told: &mut [Option<Beside>],
-) -> Result<()> {
+    apart: &[f64],
+) -> Result<Vec<Option<[FlippedFit; 2]>>> {
     let mut buffers = RefineBuffers::default();
-    let mut poses = Vec::new();
-    for frame in looked_at_flipped(told) {
-        let mut fit = |number: usize, component| -> Result<Option<Pose>> {
+    let mut fits = Vec::new();
+    for frame in looked_at_flipped(apart) {
+        let mut fit = |number: usize, component| -> Result<Option<FlippedFit>> {
             let Some(pose) = found[number].poses()[frame] else {
                 return Ok(None);
             };
@@ -76,12 +75,9 @@ fn look_flipped(
         };
         let femur = fit(0, KneeComponent::Femur)?;
         let tibia = fit(1, KneeComponent::Tibia)?;
-        poses.push(femur.zip(tibia).map(<[Pose; 2]>::from));
+        fits.push(femur.zip(tibia).map(<[FlippedFit; 2]>::from));
     }
-    for told in told.iter_mut().flatten() {
-        *told = knee.judge(*told, &poses);
-    }
-    Ok(())
+    Ok(fits)
 }
 
 /// Says what is told, once.

@@ -1,7 +1,7 @@
 //! Components of a film that lie beside each other as in no knee: its frames may be mirrored.
 
 use anyhow::Result;
-use fluoropose::finder::FlippedKnee;
+use fluoropose::finder::{FlippedFit, FlippedKnee};
 use fluoropose::follow::Cell;
 use fluoropose::joint::beside::{Beside, Middles};
 use fluoropose::mesh::Model;
@@ -33,12 +33,11 @@ pub(super) fn beside(
         return Ok(Vec::new());
     };
     let mut told = middles.judge_poses(&femur.2, &tibia.2);
-    if told.iter().all(Option::is_none) {
-        return Ok(told);
-    }
+    let apart = middles.apart_of(&femur.2, &tibia.2);
     if let Some(knee) = FlippedKnee::new((&models[0], &femur.1), (&models[1], &tibia.1)) {
         let both = [(femur.0, &femur.2), (tibia.0, &tibia.2)];
-        look_flipped(run, &knee, both, &mut told)?;
+        let fits = look_flipped(run, &knee, both, &apart)?;
+        knee.judge(&mut told, &apart, &fits);
     }
     say(run, &told);
     Ok(told)
@@ -63,39 +62,37 @@ fn poses(film: &[Cell]) -> Vec<Option<Pose>> {
     film.iter().map(pose).collect()
 }
 
-/// Looks at some of the frames of which something is told as if they were flipped, and adds what is so there.
+/// Looks at some of the frames as if they were flipped.
 fn look_flipped(
     run: &Run<'_>,
     knee: &FlippedKnee,
     both: [(&Part<'_>, &Vec<Option<Pose>>); 2],
-    told: &mut [Option<Beside>],
-) -> Result<()> {
+    apart: &[f64],
+) -> Result<Vec<Option<[FlippedFit; 2]>>> {
     let mut buffers = RefineBuffers::default();
-    let mut found = Vec::new();
-    for frame in looked_at_flipped(told) {
-        let mut fit = |(part, poses): (&Part<'_>, &Vec<Option<Pose>>)| -> Result<Option<Pose>> {
-            let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
-                return Ok(None);
+    let mut fits = Vec::new();
+    for frame in looked_at_flipped(apart) {
+        let mut fit =
+            |(part, poses): (&Part<'_>, &Vec<Option<Pose>>)| -> Result<Option<FlippedFit>> {
+                let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
+                    return Ok(None);
+                };
+                let model: Model<'_> = part.model();
+                part.see(run.film, frame, |_, image, _| {
+                    let view = CameraView::only(&part.camera, *image);
+                    let options = RefineOptions::default();
+                    knee.fit(
+                        role.component(),
+                        (&model, &pose),
+                        view,
+                        options,
+                        &mut buffers,
+                    )
+                })
             };
-            let model: Model<'_> = part.model();
-            part.see(run.film, frame, |_, image, _| {
-                let view = CameraView::only(&part.camera, *image);
-                let options = RefineOptions::default();
-                knee.fit(
-                    role.component(),
-                    (&model, &pose),
-                    view,
-                    options,
-                    &mut buffers,
-                )
-            })
-        };
         let [femur, tibia] = both;
         let (femur, tibia) = (fit(femur)?, fit(tibia)?);
-        found.push(femur.zip(tibia).map(<[Pose; 2]>::from));
+        fits.push(femur.zip(tibia).map(<[FlippedFit; 2]>::from));
     }
-    for told in told.iter_mut().flatten() {
-        *told = knee.judge(*told, &found);
-    }
-    Ok(())
+    Ok(fits)
 }
