@@ -40,7 +40,7 @@ pub struct FlippedFit {
     pub gain: f64,
 }
 
-/// Of outlines without noise what is left is rounding, square pixels.
+/// Of outlines without noise what is left is rounding, square pixels: less is no better.
 const LEAST_LOSS: f64 = 1e-3;
 
 impl FlippedKnee {
@@ -82,7 +82,7 @@ impl FlippedKnee {
         let other = best(&flipped.model.as_model(), &starts)?;
         Some(FlippedFit {
             pose: other.pose,
-            gain: sqrt(own.loss / other.loss.max(LEAST_LOSS)),
+            gain: sqrt(own.loss.max(LEAST_LOSS) / other.loss.max(LEAST_LOSS)),
         })
     }
 
