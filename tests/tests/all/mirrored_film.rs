@@ -128,9 +128,7 @@ impl Case {
         let mut memory = buffers.borrow(&model, &camera);
         let options = RefineOptions::default();
         let found = refine_rivals(&model, &[view], &starts, &planes, options, &mut memory).ok()?;
-        let pose = found.first()?.refined.pose;
-        drop(memory);
-        Some((mask, pose))
+        Some((mask, found.first()?.refined.pose))
     }
 }
 

@@ -207,7 +207,7 @@ fn say(name: &str, axes: &AnatomicalAxes) {
     println!("{name} anterior, superior, right: {axes}");
     if !axes.are_files_own {
         eprintln!(
-            "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
+            "the {name} file's axes are more than 10 degrees off those of its shape, or across the knee more than 5, so that those of its shape are taken"
         );
     }
     if !axes.front_is_known {

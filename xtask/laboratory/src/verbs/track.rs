@@ -112,6 +112,12 @@ pub fn run(args: Args) -> Result<u8> {
     for part in &tracked {
         println!("{part}");
     }
+    for part in tracked.iter().filter(|part| !part.is_found()) {
+        let name = &part.component;
+        println!(
+            "{name} was not found in any frame; a place inside it leads there: --click {name}:FRAME:COLUMN,ROW"
+        );
+    }
     let mut wrong = false;
     for told in impossible(&request.study, &request.out) {
         wrong = true;
