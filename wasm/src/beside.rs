@@ -1,15 +1,14 @@
 //! Components that lie beside each other as in no knee, over the page's film.
 
-use fluoropose::joint::beside::Middles;
+use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
-/// Numbers of a pose.
-const NUMBERS: usize = 6;
+/// Numbers of a pose and the standard deviation of its depth.
+const NUMBERS: usize = 7;
 
 /// The middles of both components of a knee.
 #[wasm_bindgen]
@@ -41,7 +40,8 @@ impl KneeMiddles {
     }
 
     /// What is told of each frame of a film, a sentence without its full stop; nothing where nothing is. Of each frame the femoral pose
-    /// (six numbers, not finite where there is none), then the tibial one.
+    /// (six numbers, not finite where there is none) with the standard deviation of its depth (mm, not finite where it is not known), then the
+    /// tibial one.
     pub fn told(&self, frames: &[f64]) -> Vec<JsValue> {
         let told = self.sentences(frames).into_iter();
         told.map(|told| told.map_or(JsValue::NULL, |told| JsValue::from_str(&told)))
@@ -52,11 +52,16 @@ impl KneeMiddles {
 impl KneeMiddles {
     fn sentences(&self, frames: &[f64]) -> Vec<Option<String>> {
         let pose = |numbers: &[f64; NUMBERS]| {
-            let known = numbers.iter().all(|number| number.is_finite());
-            let pose = known.then(|| from_numbers(numbers).ok()).flatten();
-            pose.map(Pose::from)
+            let [pose @ .., sd] = numbers;
+            let known = pose.iter().all(|number| number.is_finite());
+            let pose = known.then(|| from_numbers(pose).ok()).flatten();
+            let depth_sd_mm = if sd.is_finite() { *sd } else { 0.0 };
+            pose.map(|pose| Lying {
+                pose: pose.into(),
+                depth_sd_mm,
+            })
         };
-        let poses: Vec<Option<Pose>> = frames.as_chunks().0.iter().map(pose).collect();
+        let poses: Vec<Option<Lying>> = frames.as_chunks().0.iter().map(pose).collect();
         let (femur, tibia): (Vec<_>, Vec<_>) = poses
             .as_chunks::<2>()
             .0
@@ -106,7 +111,8 @@ mod tests {
         let middles = knee();
         let frame = |z: f64| {
             let mut frame = [0.0; 2 * NUMBERS];
-            (frame[2], frame[8]) = (-900.0, -900.0 + z);
+            (frame[2], frame[9]) = (-900.0, -900.0 + z);
+            frame[6] = f64::NAN;
             frame
         };
         let mut beside = [frame(30.0), frame(30.0), frame(2.0), frame(30.0)].concat();
@@ -119,5 +125,9 @@ mod tests {
             [false, true, true, true]
         );
         assert_eq!(middles.sentences(&[frame(2.0); 2].concat()), [None, None]);
+        // Nobody knows how far away it is.
+        let mut frame = frame(30.0);
+        frame[13] = 40.0;
+        assert_eq!(middles.sentences(&[frame; 2].concat()), [None, None]);
     }
 }

@@ -9,9 +9,10 @@ use core::fmt;
 
 use crate::joint::kinematics::Side;
 use crate::joint::plate::Plate;
-use crate::math::{Decimal, Vector3, dot};
+use crate::math::{Decimal, Vector3, apply, dot, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
+use crate::pose::covariance::PoseCovariance;
 
 /// A condyle bears at a third of the femoral component's width to either side of its middle. That is how knees are made, whatever
 /// their size: condyles are as wide as the notch between them and more.
@@ -55,6 +56,33 @@ pub struct Flipped {
     pub times: f64,
 }
 
+/// A component in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lying {
+    /// `camera_from_model`.
+    pub pose: Pose,
+    /// One standard deviation of its depth, mm; 0 where that is not known.
+    pub depth_sd_mm: f64,
+}
+
+impl From<Pose> for Lying {
+    fn from(pose: Pose) -> Self {
+        Self::new(pose, None)
+    }
+}
+
+impl Lying {
+    /// A pose with its covariance, where that is known.
+    #[must_use]
+    pub fn new(pose: Pose, covariance: Option<&PoseCovariance>) -> Self {
+        let variance = covariance.map_or(0.0, |covariance| covariance.matrix[5][5]);
+        Self {
+            pose,
+            depth_sd_mm: sqrt(variance.max(0.0)),
+        }
+    }
+}
+
 impl Middles {
     /// From both meshes, each with its anatomical axes, of which directions alone matter (`model_from_field` of
     /// [`crate::mesh::anatomy::AnatomicalAxes`]). `None` where the tray has no plate.
@@ -85,6 +113,17 @@ impl Middles {
         dot(&self.across, &plate) - self.femur_mm
     }
 
+    /// The same where depths are known well enough to tell it: to what a knee allows. Else NaN.
+    #[must_use]
+    pub fn known_mm(&self, femur: &Lying, tibia: &Lying) -> f64 {
+        let [.., along_the_view] = apply(&femur.pose.rotation, &self.across);
+        let [a, b] = [femur, tibia].map(|lying| along_the_view * lying.depth_sd_mm);
+        match sqrt(a * a + b * b) <= self.most_mm() {
+            true => self.apart_mm(&femur.pose, &tibia.pose),
+            false => f64::NAN,
+        }
+    }
+
     /// How far they may: beyond it a condyle does not bear on the tray but beside it. A femoral component that is wider than its tray
     /// counts as no wider.
     #[must_use]
@@ -106,10 +145,10 @@ impl Middles {
     /// [`Self::judge`] for the poses of both components in the frames of a film, as long as the shorter of both.
     #[cfg(feature = "alloc")]
     #[must_use]
-    pub fn judge_poses(
+    pub fn judge_poses<L: Into<Lying> + Copy>(
         &self,
-        femur: &[Option<Pose>],
-        tibia: &[Option<Pose>],
+        femur: &[Option<L>],
+        tibia: &[Option<L>],
     ) -> alloc::vec::Vec<Option<Beside>> {
         let apart = self.apart_of(femur, tibia);
         let mut told = alloc::vec![None; apart.len()];
@@ -117,13 +156,19 @@ impl Middles {
         told
     }
 
-    /// [`Self::apart_mm`] of each frame, NaN where a pose is missing.
+    /// [`Self::known_mm`] of each frame, NaN where a pose is missing too.
     #[cfg(feature = "alloc")]
     #[must_use]
-    pub fn apart_of(&self, femur: &[Option<Pose>], tibia: &[Option<Pose>]) -> alloc::vec::Vec<f64> {
-        let apart = |(femur, tibia): (&Option<Pose>, &Option<Pose>)| {
-            let both = femur.as_ref().zip(tibia.as_ref());
-            both.map_or(f64::NAN, |(femur, tibia)| self.apart_mm(femur, tibia))
+    pub fn apart_of<L: Into<Lying> + Copy>(
+        &self,
+        femur: &[Option<L>],
+        tibia: &[Option<L>],
+    ) -> alloc::vec::Vec<f64> {
+        let apart = |(femur, tibia): (&Option<L>, &Option<L>)| {
+            let both = (*femur).zip(*tibia);
+            both.map_or(f64::NAN, |(femur, tibia)| {
+                self.known_mm(&femur.into(), &tibia.into())
+            })
         };
         femur.iter().zip(tibia).map(apart).collect()
     }

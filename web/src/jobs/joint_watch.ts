@@ -3,7 +3,7 @@ import { withAsides } from '../document/asides';
 import { type Candidate, cellOf, chosenCandidate, type Doc } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { JointPart } from '../workers/protocol/joint';
+import type { JointPart, LyingPose } from '../workers/protocol/joint';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Services } from './services';
 
@@ -41,7 +41,7 @@ export class JointWatch {
     this.#asked = { models, pairs };
     try {
       const [femur, tibia] = parts;
-      const frames = pairs.map(([femur, tibia]) => ({ femur: femur?.pose ?? null, tibia: tibia?.pose ?? null }));
+      const frames = pairs.map(([femur, tibia]) => ({ femur: lying(femur), tibia: lying(tibia) }));
       const told = await this.#worker.call('lyingBeside', { key: models, femur, tibia, frames }, { lane: 'idle' });
       this.#take(told);
     } catch (error) {
@@ -70,6 +70,10 @@ export class JointWatch {
     });
     return femur && tibia ? [femur, tibia] : null;
   }
+}
+
+function lying(candidate: Candidate | null): LyingPose | null {
+  return candidate && { pose: candidate.pose, depth: candidate.deviations?.z ?? null };
 }
 
 /** Null while a model or its axes are missing. */

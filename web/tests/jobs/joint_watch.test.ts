@@ -26,7 +26,7 @@ function bench() {
   const asked: Asked[] = [];
   const call = async (_: string, input: Asked) => {
     asked.push(input);
-    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.z - tibia.z) > 20 ? 'are the pictures mirrored?' : null));
+    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? 'are the pictures mirrored?' : null));
   };
   const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }) };
   new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);

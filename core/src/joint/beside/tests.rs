@@ -133,6 +133,25 @@ fn a_film_is_told_by_its_median_and_a_frame_by_itself() {
     assert_eq!(told(&middles, &[]), []);
 }
 
+/// A tray of which nobody knows how far away it is tells nothing where the knee is seen from the side, and all of it from the front.
+#[test]
+fn depths_that_are_not_known_tell_nothing() {
+    let (middles, most) = middles();
+    let (femur, tibia) = knee([60.0, 0.0, 0.0], most + 8.0);
+    let told = |view: &Pose, depth_sd_mm: f64| {
+        let lying = |pose: &Pose| Lying {
+            pose: view.compose(pose),
+            depth_sd_mm,
+        };
+        let all = middles.judge_poses(&[Some(lying(&femur)); 2], &[Some(lying(&tibia)); 2]);
+        all.iter().flatten().count()
+    };
+    let front = pose([0.0; 3], [0.0, 0.0, 90.0]);
+    assert_eq!(told(&Pose::IDENTITY, 0.5 * most), 2);
+    assert_eq!(told(&Pose::IDENTITY, most), 0);
+    assert_eq!(told(&front, 20.0 * most), 2);
+}
+
 #[test]
 fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
     let mut beside = Beside {

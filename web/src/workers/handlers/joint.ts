@@ -1,7 +1,7 @@
 import { JointReport, KneeJoint, KneeMiddles, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { JointPart, JointProtocol, JointText, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
+import type { JointPart, JointProtocol, JointText, LyingPose, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
 import { poseArray, uncertaintyArray } from '../protocol/pose_array';
 import type { Handlers } from './serve';
 
@@ -34,7 +34,7 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
         middles?.of.free();
         middles = { key, of: new KneeMiddles(...partOf(femur), ...partOf(tibia)) };
       }
-      const numbers = (pose: PoseNumbers | null) => (pose ? poseArray(pose) : NO_POSE);
+      const numbers = (lying: LyingPose | null) => (lying ? [...poseArray(lying.pose), lying.depth ?? NaN] : [...NO_POSE, NaN]);
       return middles.of.told(Float64Array.from(frames.flatMap(({ femur, tibia }) => [...numbers(femur), ...numbers(tibia)]))) as (string | null)[];
     },
     publish: ({ film, what }) => published(open, film, (report) => textOf(report, what)),

@@ -64,6 +64,12 @@ export interface JointOfFrames {
   readonly impossible: readonly (string | null)[];
 }
 
+/** A pose, and one standard deviation of its depth, mm; null where that is not known. */
+export interface LyingPose {
+  readonly pose: PoseNumbers;
+  readonly depth: number | null;
+}
+
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
@@ -80,7 +86,7 @@ export interface JointProtocol {
       readonly key: string;
       readonly femur: JointPart;
       readonly tibia: JointPart;
-      readonly frames: readonly { readonly femur: PoseNumbers | null; readonly tibia: PoseNumbers | null }[];
+      readonly frames: readonly { readonly femur: LyingPose | null; readonly tibia: LyingPose | null }[];
     };
     output: readonly (string | null)[];
     progress: never;

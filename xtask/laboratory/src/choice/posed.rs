@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use fluoropose::finder::choice::Counterpart;
-use fluoropose::joint::beside::Middles;
+use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
@@ -126,14 +126,16 @@ impl Beside<'_> {
         let Some(other) = &self.model else {
             return Ok(());
         };
-        let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
-        let poses: Vec<Option<Pose>> = decisions.iter().map(pose).collect();
+        let lying = |decision: &Option<Decision>| decision.as_ref().and_then(Decision::lying);
+        let poses: Vec<Option<Lying>> = decisions.iter().map(lying).collect();
+        let others = self.poses.iter().map(|pose| pose.map(Lying::from));
+        let others: Vec<Option<Lying>> = others.collect();
         let (own_axes, other_axes) = (
             shape_axes(own, self.role)?,
             shape_axes(other, self.role.other())?,
         );
         let own = ((*own.mesh(), &own_axes), &poses);
-        let other = ((*other.mesh(), &other_axes), &self.poses);
+        let other = ((*other.mesh(), &other_axes), &others);
         let (femur, tibia) = match self.role {
             Role::Femur => (own, other),
             Role::Tibia => (other, own),

@@ -8,6 +8,7 @@ use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::joint::beside::Lying;
 use fluoropose::library::ViewGrid;
 use fluoropose::locate::Located;
 use fluoropose::mesh::anatomy::field_axes;
@@ -68,6 +69,12 @@ impl Found {
     pub(super) fn poses(&self) -> Vec<Option<Pose>> {
         let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
         self.decisions.iter().map(pose).collect()
+    }
+
+    /// The same with how well their depths are known.
+    pub(super) fn lying(&self) -> Vec<Option<Lying>> {
+        let lying = |decision: &Option<Decision>| decision.as_ref().and_then(Decision::lying);
+        self.decisions.iter().map(lying).collect()
     }
 
     /// Its masks as they are.

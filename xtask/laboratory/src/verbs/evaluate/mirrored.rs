@@ -38,7 +38,8 @@ pub(super) fn doubt_parts(parts: &mut [Part<'_>]) -> Result<()> {
         };
         let found = [&femur.found[number], &tibia.found[other]];
         let poses = found.map(Found::poses);
-        let mut told = middles.judge_poses(&poses[0], &poses[1]);
+        let lying = found.map(Found::lying);
+        let mut told = middles.judge_poses(&lying[0], &lying[1]);
         let apart = middles.apart_of(&poses[0], &poses[1]);
         let models = [femur.model.as_model(), tibia.model.as_model()];
         if let Some(knee) = FlippedKnee::new((&models[0], &femoral), (&models[1], &tibial)) {

@@ -1,7 +1,7 @@
 //! The joint of a study, frame by frame.
 
 use anyhow::{Context, Result, bail};
-use fluoropose::joint::beside::Middles;
+use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::joint::low_pass::LowPass;
 use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::relative::Relative;
@@ -110,7 +110,7 @@ impl<'s> Knee<'s> {
         let filtered = self.filtered(&relative, filtering, &mut memory)?;
         let beside = self
             .middles
-            .judge_poses(&sources.femur.poses, &sources.tibia.poses);
+            .judge_poses(&lying(&sources.femur), &lying(&sources.tibia));
         let mut rows = Vec::new();
         for (frame, relative) in relative.iter().enumerate() {
             let joint: Option<JointFrame> = match relative {
@@ -191,4 +191,13 @@ fn axes(body: &Body, role: Role) -> Result<AnatomicalAxes> {
             body.name
         )
     })
+}
+
+/// Poses with how well their depths are known.
+fn lying(body: &Body) -> Vec<Option<Lying>> {
+    let lying = |(frame, pose): (usize, &Option<Pose>)| {
+        let uncertain = body.uncertain.get(&frame);
+        Some(Lying::new((*pose)?, uncertain.map(|one| &one.covariance)))
+    };
+    body.poses.iter().enumerate().map(lying).collect()
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use fluoropose::finder::{FlippedFit, FlippedKnee};
 use fluoropose::follow::Cell;
-use fluoropose::joint::beside::{Beside, Middles};
+use fluoropose::joint::beside::{Beside, Lying, Middles};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
@@ -22,7 +22,8 @@ pub(super) fn beside(
 ) -> Result<Vec<Option<Beside>>> {
     let known = |role| {
         let at = parts.iter().position(|part| part.role() == Some(role))?;
-        Some((&parts[at], parts[at].axes?, poses(&films[at])))
+        let lying = lying(&films[at]);
+        Some((&parts[at], parts[at].axes?, poses(&films[at]), lying))
     };
     let (Some(femur), Some(tibia)) = (known(Role::Femur), known(Role::Tibia)) else {
         return Ok(Vec::new());
@@ -32,7 +33,7 @@ pub(super) fn beside(
     let Some(middles) = Middles::new((meshes[0], &femur.1), (meshes[1], &tibia.1)) else {
         return Ok(Vec::new());
     };
-    let mut told = middles.judge_poses(&femur.2, &tibia.2);
+    let mut told = middles.judge_poses(&femur.3, &tibia.3);
     let apart = middles.apart_of(&femur.2, &tibia.2);
     if let Some(knee) = FlippedKnee::new((&models[0], &femur.1), (&models[1], &tibia.1)) {
         let both = [(femur.0, &femur.2), (tibia.0, &tibia.2)];
@@ -55,6 +56,14 @@ fn say(run: &Run<'_>, told: &[Option<Beside>]) {
         let remark = format!("frame {}{more}: {first}", frame + 1);
         (run.request.listener)(Told::Remark(remark));
     }
+}
+
+fn lying(film: &[Cell]) -> Vec<Option<Lying>> {
+    let lying = |cell: &Cell| {
+        let found = cell.found()?;
+        Some(Lying::new(found.pose, found.covariance.as_ref()))
+    };
+    film.iter().map(lying).collect()
 }
 
 fn poses(film: &[Cell]) -> Vec<Option<Pose>> {
