@@ -17,7 +17,6 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::RefineBuffers;
 use rayon::prelude::*;
 
-use super::mirrored::doubt_parts;
 use super::reference::Reference;
 use super::request::Request;
 use crate::choice::{Decision, decide};
@@ -138,7 +137,6 @@ pub(super) fn find_parts<'s>(
     if request.method == Method::Image {
         doubt_unusual(&mut parts);
     }
-    doubt_parts(&mut parts)?;
     Ok(parts)
 }
 
