@@ -14,6 +14,8 @@ mod corrected;
 mod error;
 mod find;
 mod first;
+#[cfg(feature = "alloc")]
+mod flipped;
 mod memory;
 mod mirrored;
 pub mod nearby;
@@ -30,6 +32,8 @@ pub use corrected::{correct_candidates, onto_target};
 pub use error::FindError;
 pub use find::{Found, Goal, Wanted, find, find_into, find_paced};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
+#[cfg(feature = "alloc")]
+pub use flipped::{FlippedFit, FlippedKnee};
 pub use memory::FinderMemory;
 pub use usual::{FilmMisfits, look_beyond};
 pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};

@@ -9,12 +9,14 @@
 //! | [`plate`] | the plane and the extent of a tray's plate, from its mesh |
 //! | [`condyles`] | the lowest point of either condyle above the plate, and lift-off |
 //! | [`numbers`] | all of these of one frame, by name: what callers use |
+//! | [`beside`] | whether a tray lies beside its femoral component, as where a picture is mirrored |
 //! | [`impossible`] | whether a knee can have such numbers |
 //! | [`pivot`] | the centre of rotation on the plate over several frames |
 //! | [`course`] | numbers against flexion, and over a cycle |
 //! | [`group`] | numbers of several knees together |
 //! | [`low_pass`] | numbers and poses without what is faster than a cutoff |
 
+pub mod beside;
 pub mod condyles;
 pub mod course;
 #[cfg(test)]

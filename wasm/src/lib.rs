@@ -7,6 +7,7 @@
 
 mod anatomy;
 mod bead_grid;
+mod beside;
 mod camera;
 mod choice;
 mod exchange;

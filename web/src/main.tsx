@@ -21,6 +21,7 @@ import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
 import { JointReader } from './jobs/joint_reader';
+import { JointWatch } from './jobs/joint_watch';
 import { Landscapes } from './jobs/landscape';
 import { keepLeads } from './jobs/leads';
 import { Librarian } from './jobs/librarian';
@@ -72,6 +73,7 @@ async function start(root: HTMLElement): Promise<void> {
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
+  new JointWatch(services, matcher);
   keepLeads(services.store);
   const film = new FilmLater(services, matcher, filmWorker());
   const oneClick = new OneClick(services, matcher, film);

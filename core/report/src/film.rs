@@ -2,6 +2,7 @@
 
 use fluoropose::Side;
 use fluoropose::joint::JointFrame;
+use fluoropose::joint::beside::Beside;
 use fluoropose::joint::course::{
     FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, cycle, levels, phases,
 };
@@ -32,6 +33,16 @@ pub fn impossibilities(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) ->
         _ => format!("frame {first} and {} more: {wrong}", count - 1),
     };
     kinds.into_iter().map(sentence).collect()
+}
+
+/// What is told of frames whose components lie beside each other as in no knee: the first of them and how many there are, a sentence.
+#[must_use]
+pub fn besides(mut frames: impl Iterator<Item = (usize, Beside)>) -> Option<String> {
+    let (first, told) = frames.next()?;
+    Some(match frames.count() {
+        0 => format!("frame {first}: {told}"),
+        more => format!("frame {first} and {more} more: {told}"),
+    })
 }
 
 /// Whose origins translations are of, which no table of them is understood without.
@@ -69,6 +80,8 @@ pub struct JointRow {
     pub checked: bool,
     /// Why it is doubtful; `None` where it is not.
     pub doubt: Option<String>,
+    /// How far its components lie beside each other, where that is as in no knee.
+    pub beside: Option<Beside>,
 }
 
 /// A joint in all frames of a film.
@@ -118,6 +131,16 @@ impl JointRow {
         }
     }
 
+    /// The same with components that lie beside each other as in no knee, where that is so: it is doubtful then.
+    #[must_use]
+    pub fn lying(mut self, beside: Option<Beside>) -> Self {
+        self.beside = beside;
+        if let (Some(beside), None) = (beside, &self.doubt) {
+            self.doubt = Some(beside.to_string());
+        }
+        self
+    }
+
     /// Whether it has numbers that a knee can have.
     pub(crate) fn is_possible(&self) -> bool {
         self.joint
@@ -165,7 +188,10 @@ impl JointFilm {
     #[must_use]
     pub fn impossibilities(&self) -> Vec<String> {
         let numbers = |row: &JointRow| Some((row.number, row.joint?.numbers));
-        impossibilities(self.rows.iter().filter_map(numbers))
+        let mut told = impossibilities(self.rows.iter().filter_map(numbers));
+        let beside = |row: &JointRow| Some((row.number, row.beside?));
+        told.extend(besides(self.rows.iter().filter_map(beside)));
+        told
     }
 
     /// What is told of translations that no knee has; see [`origins_told`].

@@ -30,7 +30,7 @@ pub use count::counted;
 pub use drawing::Figure;
 pub use facts::{Facts, Input};
 pub use figure::{figure, group_figure};
-pub use film::{JointFilm, JointRow, ORIGINS, Step, impossibilities, origins_told};
+pub use film::{JointFilm, JointRow, ORIGINS, Step, besides, impossibilities, origins_told};
 pub use group::{Group, Knee};
 pub use html::html;
 #[cfg(feature = "png")]

@@ -202,6 +202,7 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
             filtered: None,
             checked: checked[at] > 0.0,
             doubt: (!doubt.is_empty()).then_some(doubt),
+            beside: None,
         });
     }
     Ok(film)

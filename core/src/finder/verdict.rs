@@ -11,6 +11,7 @@ use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{Choice, OpenRival, RivalPose};
+use crate::joint::beside::Beside;
 use crate::math::Decimal;
 use crate::pose::geodesic_deg;
 use crate::refine::{Fit, MET_WITHIN_PX};
@@ -96,6 +97,8 @@ pub enum Doubt {
         /// Its misfit, pixels.
         other_px: f64,
     },
+    /// The other component lies beside it as in no knee: the picture may be mirrored.
+    Mirrored(Beside),
 }
 
 /// Why no pose explains a frame.
@@ -206,6 +209,7 @@ impl fmt::Display for Doubt {
                     Decimal::new(other_px, 2)
                 )
             }
+            Self::Mirrored(beside) => beside.fmt(f),
         }
     }
 }

@@ -8,6 +8,7 @@ use super::conclusion::{Conclusion, fill_gaps};
 use super::known_femur::KnownFemur;
 use super::side_margin::SideMargin;
 use super::trust::{Distrust, FrameEvidence, Trust, TrustLimits, judge_film};
+use crate::joint::beside::Beside;
 use crate::math::Vector3;
 use crate::mesh::anatomy::KneeComponent;
 
@@ -19,6 +20,9 @@ pub struct KnownBeside<'b> {
     pub other_depths_mm: &'b [Option<f64>],
     /// Of a tibia its femur.
     pub femur: Option<&'b KnownFemur>,
+    /// What is told of each frame of a film whose components lie beside each other ([`Middles::judge_poses`](crate::joint::beside::Middles::judge_poses));
+    /// may be shorter than the film.
+    pub joint: &'b [Option<Beside>],
     /// The component that the model has the shape of, where that is the other one.
     pub other_shape: Option<KneeComponent>,
     /// Gaps of at most so many frames between frames to be trusted are filled.
@@ -54,6 +58,13 @@ pub fn conclude(
     }
     if let Some(femur) = beside.femur {
         femur.distrust_impossible(&mut film);
+    }
+    for (one, told) in film.iter_mut().zip(beside.joint) {
+        match told {
+            Some(told) if told.of_film => one.distrust_before_all(Distrust::Mirrored(*told)),
+            Some(told) => one.distrust(Distrust::Mirrored(*told)),
+            None => {}
+        }
     }
     film
 }

@@ -102,6 +102,14 @@ impl Conclusion {
         }
     }
 
+    /// The same for a reason that explains any other doubt: it is told in place of that.
+    pub fn distrust_before_all(&mut self, distrust: Distrust) {
+        if self.state == State::Doubtful {
+            self.why = Why::Distrusted(distrust);
+        }
+        self.distrust(distrust);
+    }
+
     /// Whether the pose is to be trusted.
     #[must_use]
     pub fn is_trusted(&self) -> bool {

@@ -7,6 +7,7 @@ use super::motion::between;
 use super::side_margin::SideMargin;
 use super::sides::Rival;
 use super::trail::apart;
+use crate::joint::beside::Beside;
 use crate::joint::impossible::Impossible;
 use crate::math::Vector3;
 use crate::mesh::anatomy::KneeComponent;
@@ -118,6 +119,8 @@ pub enum Distrust {
     Shape(KneeComponent),
     /// Its joint with the femur would do this, which no knee does.
     Knee(Impossible),
+    /// The other component lies beside it as in no knee: the picture may be mirrored.
+    Mirrored(Beside),
 }
 
 impl Distrust {
@@ -135,7 +138,7 @@ impl Distrust {
             Self::Undetermined(_) => "undetermined",
             Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
             Self::Shape(_) => "shape",
-            Self::Knee(_) => "joint",
+            Self::Knee(_) | Self::Mirrored(_) => "joint",
         }
     }
 }
@@ -197,6 +200,7 @@ impl fmt::Display for Distrust {
                 "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
             ),
             Self::Knee(what) => what.fmt(f),
+            Self::Mirrored(beside) => beside.fmt(f),
             Self::Shape(shape) => {
                 let is = match shape {
                     KneeComponent::Femur => "femoral component",

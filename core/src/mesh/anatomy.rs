@@ -13,7 +13,7 @@ pub use signs::{AnatomicalAxes, anatomical_axes};
 pub use words::AxesError;
 
 use crate::math::eigen::eigen_symmetric;
-use crate::math::{Matrix3, Vector3, cross, dot, norm, scale, subtract};
+use crate::math::{Matrix3, Vector3, cross, dot, norm, radians, scale, sin_cos, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
@@ -21,6 +21,10 @@ use crate::pose::{Pose, geodesic_deg};
 /// Most CAD axes are the anatomical ones in some order. What is found within this angle of one of the file's axes is taken
 /// to be that axis, so that numbers agree with those of programs that take the file's axes as they are. Degrees.
 pub const OWN_AXIS_DEG: f64 = 10.0;
+
+/// The same across the knee, where shapes tell their axis to 3 degrees. Coronal tilt is taken along it, and by 2 degrees of that sides of the
+/// mirror are chosen: with file axes that lay 9 degrees off all trays of a film were taken on the wrong side, and called good.
+pub const OWN_ACROSS_DEG: f64 = 5.0;
 
 /// Planes whose deviations differ by less than this factor are equally good, and the wider way across is mediolateral.
 const AS_SYMMETRIC: f64 = 3.0;
@@ -96,7 +100,7 @@ pub fn field_axes(
 }
 
 /// The file's own axes in the order and the directions that are nearest to those found, where all are within
-/// [`OWN_AXIS_DEG`] of them, turned together.
+/// [`OWN_AXIS_DEG`] of them, turned together, and that across the knee within [`OWN_ACROSS_DEG`].
 fn own_axes(found: &Pose) -> Option<Pose> {
     let mut own = [[0.0; 3]; 3];
     for (own, row) in own.iter_mut().zip(&found.rotation) {
@@ -108,7 +112,9 @@ fn own_axes(found: &Pose) -> Option<Pose> {
         ..*found
     };
     let near = own.is_rigid(1e-9) && geodesic_deg(&own.rotation, &found.rotation) < OWN_AXIS_DEG;
-    near.then_some(own)
+    let [own_across, across] = [&own, found].map(|pose| pose.rotation.map(|row| row[2]));
+    let is_across = dot(&own_across, &across) > sin_cos(radians(OWN_ACROSS_DEG)).1;
+    (near && is_across).then_some(own)
 }
 
 /// The file's y axis, or where that is too near to `axis` its x axis, made perpendicular to it.
@@ -184,9 +190,31 @@ mod tests {
                 let column = |pose: &Pose| pose.rotation.map(|row| row[k]);
                 dot(&column(&axes), &column(&pose)).abs()
             };
-            let least = (OWN_AXIS_DEG + 0.5).to_radians().cos();
-            prop_assert!((0..3).all(|k| cosine(k) > least), "{:?}", axes);
+            let least = |deg: f64| (deg + 0.5).to_radians().cos();
+            prop_assert!((0..3).all(|k| cosine(k) > least(OWN_AXIS_DEG)), "{:?}", axes);
+            prop_assert!(cosine(2) > least(OWN_ACROSS_DEG), "{:?}", axes);
         }
+    }
+
+    /// Coronal tilt would be 8 degrees off, and choose sides of the mirror by that.
+    #[test]
+    fn a_file_that_leans_to_one_side_has_the_axes_of_its_shape() {
+        let lean = Pose::from(EulerPose {
+            x_rot_deg: 8.0,
+            ..EulerPose::default()
+        });
+        let (vertices, triangles) = tray();
+        let vertices: Vec<[f32; 3]> = vertices
+            .iter()
+            .map(|vertex| lean.transform(vertex).map(|x| x as f32))
+            .collect();
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let axes = field_axes(&mesh, &symmetry_planes(&mesh), KneeComponent::Tibia);
+        let axes = axes.expect("a plane and a plate");
+        assert!(
+            geodesic_deg(&axes.rotation, &lean.rotation) < 0.5,
+            "{axes:?}"
+        );
     }
 
     #[test]

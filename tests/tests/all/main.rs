@@ -14,6 +14,7 @@ mod joint;
 mod library;
 mod made_implant;
 mod mirrored;
+mod mirrored_film;
 mod offset;
 mod options;
 mod parity;

@@ -12,6 +12,8 @@ export interface Study {
   readonly rate: number | null;
   /** Null where it says nothing of the film. */
   readonly film: StatedFilm | null;
+  /** The folder of the frames, as it is written; missing where none is named. */
+  readonly frames?: string;
   readonly parts: readonly StudyPart[];
 }
 

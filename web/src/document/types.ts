@@ -224,6 +224,8 @@ export interface Posed {
   readonly doubt?: number;
   /** Of a pose that was followed from a doubtful one: what is said of it as soon as that one is doubtful no more. */
   readonly own?: Verdict;
+  /** What the joint with the other component tells of it, whatever it is by itself: a sentence without its full stop. */
+  readonly aside?: string;
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
   /** Missing where the poses were brought onto an outline, not onto the edges of the frame itself. */
@@ -342,6 +344,12 @@ export const FOLLOWED = 'followed from';
 
 /** On the pose that is chosen; null where none was given: poses of the library, of files, of old sessions. */
 export function verdictOf(result: Result | null): Verdict | null {
+  const aside = result?.kind === 'posed' ? result.aside : undefined;
+  return aside === undefined ? verdictAlone(result) : { word: 'doubtful', because: aside };
+}
+
+/** The same without what its joint tells: what is worked out from poses rests on them as they are by themselves. */
+export function verdictAlone(result: Result | null): Verdict | null {
   if (result?.kind !== 'posed') return null;
   // Who took another one knows of the first.
   if (result.chosen === 0) return result.verdict;

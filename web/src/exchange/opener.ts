@@ -45,7 +45,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   }
   const outlines = await outlineFiles(services, recognised);
   const others = recognised.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
-  const frames = others.filter((file) => file.kind === 'frames');
+  const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
   // Of a whole folder what is not recognised is told in one sentence.
   const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
@@ -114,6 +114,16 @@ function asTheStudyMeans({ study }: StudyFile, files: readonly Recognised[], lef
   if (others.length === 0 || others.length === poses.length) return meant;
   leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
   return meant.filter(({ blob }) => !others.some((other) => other.blob === blob));
+}
+
+/** Where the study names the folder of its frames, pictures elsewhere are none: a report's figure, overlays. */
+function framesMeant(study: StudyFile | null, images: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
+  const folder = study?.study.frames?.replace(/^\.\//, '').replace(/\/$/, '');
+  const isThere = ({ name, path }: Recognised) => `/${path ?? ''}`.endsWith(`/${folder}/${name}`);
+  const others = images.filter((file) => !isThere(file));
+  if (!folder || others.length === 0 || others.length === images.length) return images;
+  leftOut.push(texts.study.otherImages(others.length, fewNames(others)));
+  return images.filter(isThere);
 }
 
 /** What opens the first of the videos that were given. */

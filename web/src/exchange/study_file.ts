@@ -11,6 +11,7 @@ const readStudyText = object({
   name: optional(text),
   side: optional(oneOf('left', 'right')),
   frames_per_s: optional(number),
+  frames: optional(text),
   film: optional(object({ curvature: optional(number), blur_px: optional(number), display: optional(oneOf(...DISPLAYS)) })),
   component: list(
     object({
@@ -28,8 +29,8 @@ const readStudyText = object({
 
 /** Throws a sentence that names the place. Parts that are neither femur nor tibia are left to the laboratory. */
 export function readStudy(content: string): Study {
-  const { name, side, frames_per_s: rate, film, component: parts } = readStudyText(parsed(content), texts.study.place);
-  return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart) };
+  const { name, side, frames_per_s: rate, frames, film, component: parts } = readStudyText(parsed(content), texts.study.place);
+  return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart), ...(frames !== null && { frames }) };
 }
 
 type StudyText = ReturnType<typeof readStudyText>;

@@ -70,13 +70,14 @@ export class Chooser {
   #apply({ place, result }: Open, { index, decided, reason, doubt }: Choice): void {
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
-      if (cell.result !== result) return doc;
+      // What its joint tells may have come meanwhile.
+      if (cell.result?.kind !== 'posed' || cell.result.candidates !== result.candidates || cell.result.chosen !== result.chosen) return doc;
       const first = result.candidates[index];
       const others = result.candidates.filter((candidate) => candidate !== first);
       const candidates = index === 0 || !first ? result.candidates : [first, ...others];
       const known = this.#knownThen.get(result.candidates);
       if (known !== undefined) this.#knownThen.set(candidates, known);
-      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason, verdict: withDoubt(first, doubt) } });
+      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...cell.result, candidates, decided, reason, verdict: withDoubt(first, doubt) } });
     });
   }
 }

@@ -1,5 +1,5 @@
 import { knownAxes } from '../document/axes';
-import { cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
+import { cellOf, chosenCandidate, type Doc, verdictAlone } from '../document/types';
 import { applied, rotationOf, type Vector } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { otherThan, type ComponentName } from '../terms/component';
@@ -31,7 +31,7 @@ export function facingByFilm(doc: Doc, component: ComponentName): Facing | null 
 
 function surePose(doc: Doc, frameId: string, component: ComponentName): PoseNumbers | null {
   const cell = cellOf(doc, frameId, component);
-  return verdictOf(cell.result)?.word === 'doubtful' ? null : (chosenCandidate(cell)?.pose ?? null);
+  return verdictAlone(cell.result)?.word === 'doubtful' ? null : (chosenCandidate(cell)?.pose ?? null);
 }
 
 function rightOf(pose: PoseNumbers, right: Vector): Vector {

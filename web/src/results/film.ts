@@ -2,7 +2,7 @@ import { inFilmOrder, indexOfFrame } from '../document/frame_index';
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
 import { hasLed } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
-import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictOf } from '../document/types';
+import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictAlone } from '../document/types';
 import { type CellEntry, CellIndex } from '../document/cells';
 import type { Place } from '../document/command';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -55,7 +55,7 @@ export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: F
       const candidate = of === component ? toldBy(cell, keyOf(component, entry)) : null;
       if (!candidate || !isReady(component, entry)) return [];
       const isChecked = checkState(cell, markOf(doc, { frameId: entry.id, component })) === 'yes';
-      const isDoubtful = !isChecked && verdictOf(cell.result)?.word === 'doubtful';
+      const isDoubtful = !isChecked && verdictAlone(cell.result)?.word === 'doubtful';
       return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful, hasLed: hasLed(cell.result) }];
     });
     const good = found.filter(({ isDoubtful }) => !isDoubtful);

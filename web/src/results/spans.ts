@@ -1,7 +1,7 @@
 import type { Place } from '../document/command';
 import { hasLed, isFollowed, isFound, isFree } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
-import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
+import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -46,7 +46,7 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
     if (set.has(frame) || !isFree(cell)) return [];
     const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
     // Sessions from before `own` do not know what is said of it now.
-    const isLed = !isDoubtful && verdictOf(cell.result)?.because === texts.follow.fromDoubtful;
+    const isLed = !isDoubtful && verdictAlone(cell.result)?.because === texts.follow.fromDoubtful;
     const isDone = !isOpen && !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
     return isDone ? [] : [frame];
   });
@@ -92,7 +92,7 @@ function givenIn(doc: Doc, place: Place, frame: number): Given | null {
     const led = hasLed(cell.result);
     return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led } : null;
   }
-  const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
+  const isDoubtful = !isChecked && !isByHand(cell.result) && verdictAlone(cell.result)?.word === 'doubtful';
   return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false };
 }
 

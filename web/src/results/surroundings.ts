@@ -1,7 +1,7 @@
 import { tiltAxes } from '../document/axes';
 import { indexOfFrame } from '../document/frame_index';
 import { checkState, markOf } from '../document/marks';
-import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
+import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { otherThan, type ComponentName } from '../terms/component';
 import type { Counterpart, Surroundings } from '../workers/protocol/match';
@@ -30,7 +30,7 @@ function reliablePose(doc: Doc, index: number, component: ComponentName): PoseNu
   const candidate = chosenCandidate(cell);
   if (frameId === undefined || result?.kind !== 'posed' || !candidate) return null;
   const checked = checkState(cell, markOf(doc, { frameId, component })) === 'yes';
-  if (verdictOf(result)?.word === 'doubtful' && !checked) return null;
+  if (verdictAlone(result)?.word === 'doubtful' && !checked) return null;
   if (isByHand(result)) return candidate.pose;
   if (resultOf !== outline) return null;
   if (result.from === 'file' || result.chosen !== 0) return candidate.pose;

@@ -1,10 +1,12 @@
 //! From the poses of every frame to the one that is chosen, and what is told of it.
 
 mod decide;
+mod mirrored;
 mod posed;
 mod reasons;
 pub mod report;
 
 pub use decide::{Decision, decide};
+pub use mirrored::{doubt_mirrored, looked_at_flipped};
 pub use posed::{Beside, Posed, Posing};
 pub use reasons::Reasons;

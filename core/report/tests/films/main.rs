@@ -37,6 +37,7 @@ fn film(rotation_deg: f64) -> JointFilm {
             }),
             filtered: None,
             checked: k == 2,
+            beside: None,
             doubt: (k == 5).then(|| "tibia doubtful: \"rim\" <inner>, or not".to_owned()),
         }
     };

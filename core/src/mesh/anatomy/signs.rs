@@ -24,7 +24,7 @@ pub struct AnatomicalAxes {
 
 /// The anatomical axes of a component as its shape tells them; `planes` come from
 /// [`crate::mesh::symmetry::symmetry_planes`]. Where the file's own
-/// axes, in some order, lie within [`super::OWN_AXIS_DEG`] of those found, they are taken.
+/// axes, in some order, lie within [`super::OWN_AXIS_DEG`] of those found, across the knee within [`super::OWN_ACROSS_DEG`], they are taken.
 /// `None` where the shape has no plane of symmetry or no up.
 #[must_use]
 pub fn anatomical_axes(

@@ -1,7 +1,7 @@
-import { JointReport, KneeJoint, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
+import { JointReport, KneeJoint, KneeMiddles, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { JointPart, JointProtocol, JointText, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
+import type { JointPart, JointProtocol, JointText, LyingPose, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
 import { poseArray, uncertaintyArray } from '../protocol/pose_array';
 import type { Handlers } from './serve';
 
@@ -11,6 +11,7 @@ const NO_POSE: readonly number[] = Array<number>(6).fill(NaN);
 /** The joint between two components, open in this worker. */
 export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
   let open: KneeJoint | null = null;
+  let middles: { readonly key: string; readonly of: KneeMiddles } | null = null;
   return {
     openJoint: async ({ femur, tibia, side }) => {
       await ready;
@@ -26,6 +27,15 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       const numbers = joint.numbers(Float64Array.from(asked)) as Float64Array<ArrayBuffer>;
       const width = numbers.length / Math.max(1, frames.length);
       return { numbers, impossible: frames.map((_, at) => joint.impossible(numbers.subarray(at * width, (at + 1) * width)) ?? null) };
+    },
+    lyingBeside: async ({ key, femur, tibia, frames }) => {
+      await ready;
+      if (middles?.key !== key) {
+        middles?.of.free();
+        middles = { key, of: new KneeMiddles(...partOf(femur), ...partOf(tibia)) };
+      }
+      const numbers = (lying: LyingPose | null) => (lying ? [...poseArray(lying.pose), lying.depth ?? NaN] : [...NO_POSE, NaN]);
+      return middles.of.told(Float64Array.from(frames.flatMap(({ femur, tibia }) => [...numbers(femur), ...numbers(tibia)]))) as (string | null)[];
     },
     publish: ({ film, what }) => published(open, film, (report) => textOf(report, what)),
     figurePdf: (film) => published(open, film, (report) => report.figurePdf() as Uint8Array<ArrayBuffer>),

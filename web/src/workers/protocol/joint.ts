@@ -64,6 +64,12 @@ export interface JointOfFrames {
   readonly impossible: readonly (string | null)[];
 }
 
+/** A pose, and one standard deviation of its depth, mm; null where that is not known. */
+export interface LyingPose {
+  readonly pose: PoseNumbers;
+  readonly depth: number | null;
+}
+
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
@@ -73,5 +79,17 @@ export interface JointProtocol {
   publish: { input: { readonly film: PublishedFilm; readonly what: JointText }; output: string; progress: never };
   /** The figure of four panels as PDF, the same as the command line's. Throws while no joint is open. */
   figurePdf: { input: PublishedFilm; output: Uint8Array<ArrayBuffer>; progress: never };
+  /** What is told of each frame of a film whose components lie beside each other as in no knee, without its full stop; null where nothing is. */
+  lyingBeside: {
+    input: {
+      /** Of models and axes. */
+      readonly key: string;
+      readonly femur: JointPart;
+      readonly tibia: JointPart;
+      readonly frames: readonly { readonly femur: LyingPose | null; readonly tibia: LyingPose | null }[];
+    };
+    output: readonly (string | null)[];
+    progress: never;
+  };
   poseText: { input: PoseText; output: string; progress: never };
 }

@@ -7,6 +7,7 @@ use fluoropose::finder::choice::{
     Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film,
 };
 use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
+use fluoropose::joint::beside::Lying;
 use fluoropose::pose::Pose;
 
 use crate::finding::FrameFound;
@@ -29,6 +30,12 @@ impl Decision {
     pub fn pose(&self) -> Option<Pose> {
         let refused = matches!(self.verdict, Verdict::NoFit(_));
         (!refused).then_some(self.chosen.pose)
+    }
+
+    /// The same with how well its depth is known.
+    pub fn lying(&self) -> Option<Lying> {
+        let pose = self.pose()?;
+        Some(Lying::new(pose, self.chosen.covariance.as_ref()))
     }
 }
 

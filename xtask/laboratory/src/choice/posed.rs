@@ -2,11 +2,13 @@
 
 use anyhow::{Context, Result};
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 
 use super::decide::{Decision, decide};
+use super::mirrored::doubt_mirrored;
 use super::report::{FrameReport, report};
 use crate::files::Role;
 use crate::finding::{
@@ -83,8 +85,12 @@ impl Posing<'_> {
             ),
             None => (Vec::new(), Pose::IDENTITY),
         };
+        let mut decisions = decide(&found, &counterparts, &axes)?;
+        if let Some(beside) = &self.beside {
+            beside.doubt_mirrored(&self.finder.model(), &mut decisions)?;
+        }
         Ok(Posed {
-            decisions: decide(&found, &counterparts, &axes)?,
+            decisions,
             found,
             film,
             middle: self.finder.model().bounds().centre,
@@ -113,6 +119,31 @@ impl Beside<'_> {
         };
         let against = |row: &Option<Pose>| row.map(|pose| self.role.against(pose.compose(&axes)));
         Ok(self.poses.iter().map(against).collect())
+    }
+
+    /// Doubts poses where both components lie beside each other as in no knee. Without the other's model that is not known.
+    fn doubt_mirrored(&self, own: &Model<'_>, decisions: &mut [Option<Decision>]) -> Result<()> {
+        let Some(other) = &self.model else {
+            return Ok(());
+        };
+        let lying = |decision: &Option<Decision>| decision.as_ref().and_then(Decision::lying);
+        let poses: Vec<Option<Lying>> = decisions.iter().map(lying).collect();
+        let others = self.poses.iter().map(|pose| pose.map(Lying::from));
+        let others: Vec<Option<Lying>> = others.collect();
+        let (own_axes, other_axes) = (
+            shape_axes(own, self.role)?,
+            shape_axes(other, self.role.other())?,
+        );
+        let own = ((*own.mesh(), &own_axes), &poses);
+        let other = ((*other.mesh(), &other_axes), &others);
+        let (femur, tibia) = match self.role {
+            Role::Femur => (own, other),
+            Role::Tibia => (other, own),
+        };
+        let told = Middles::new(femur.0, tibia.0);
+        let told = told.map(|middles| middles.judge_poses(femur.1, tibia.1));
+        doubt_mirrored(decisions, &told.unwrap_or_default());
+        Ok(())
     }
 
     /// The rotation from the field's axes to the model's, where the other component's are known too.

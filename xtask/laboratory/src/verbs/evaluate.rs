@@ -3,6 +3,7 @@
 mod found;
 mod inside;
 mod limits;
+mod mirrored;
 mod print;
 mod reference;
 mod request;
@@ -19,6 +20,7 @@ use crate::options::study_files;
 use anyhow::{Context, Result, bail};
 use found::{Found, Part, find_parts};
 pub use inside::Inside;
+use mirrored::doubt_parts;
 pub use request::Request;
 pub use table::{Row, StartDifference, Table, Verdicts};
 
@@ -123,7 +125,9 @@ pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
     }
     let calibration = read_calibration(&study.calibration)?;
     let mut rows = Vec::new();
-    for part in find_parts(&study, &calibration, request)? {
+    let mut parts = find_parts(&study, &calibration, request)?;
+    doubt_parts(&mut parts)?;
+    for part in parts {
         for found in &part.found {
             part.write(found, request.poses)?;
             rows.extend(part.row(found, request)?);

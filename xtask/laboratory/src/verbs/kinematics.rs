@@ -4,14 +4,15 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose::joint::beside::Middles;
 use fluoropose::joint::kinematics::{self, joint_axes, relative_pose};
 use fluoropose::joint::numbers::{NUMBERS, of_pose, place};
 use fluoropose::joint::shared::KnownTo;
 use fluoropose::joint::{COLUMNS, Joint};
-use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
+use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose_report::{ORIGINS, impossibilities, origins_told};
+use fluoropose_report::{ORIGINS, besides, impossibilities, origins_told};
 
 use crate::exit;
 use crate::files::{Role, read_model_of, read_poses, write_text};
@@ -115,6 +116,7 @@ fn table(
     side: kinematics::Side,
     poses: impl Iterator<Item = (Option<Pose>, Option<Pose>)>,
 ) -> Result<Told> {
+    let poses: Vec<(Option<Pose>, Option<Pose>)> = poses.collect();
     let joint = joint(femur_part, tibia_part, side);
     let mut memory = vec![0; joint.map_or(0, |joint| joint.memory_needed())];
     let columns = if joint.is_some() {
@@ -124,7 +126,7 @@ fn table(
     };
     let mut table = heading(columns);
     let mut frames = Vec::new();
-    for (frame, (femur, tibia)) in poses.enumerate() {
+    for (frame, (femur, tibia)) in poses.iter().copied().enumerate() {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
             Some((femur, tibia)) => {
@@ -150,9 +152,24 @@ fn table(
     }
     Ok(Told {
         table,
-        told: impossibilities(frames.iter().copied()),
+        told: impossibilities(frames.iter().copied())
+            .into_iter()
+            .chain(lying_beside([femur_part, tibia_part], poses))
+            .collect(),
         far: origins_told(frames.into_iter()),
     })
+}
+
+/// What is told of frames whose components lie beside each other as in no knee.
+fn lying_beside(
+    [femur, tibia]: [&Part; 2],
+    poses: Vec<(Option<Pose>, Option<Pose>)>,
+) -> Option<String> {
+    let middles = Middles::new(femur.known()?, tibia.known()?)?;
+    let (femur, tibia): (Vec<_>, Vec<_>) = poses.into_iter().unzip();
+    let told = middles.judge_poses(&femur, &tibia);
+    let frames = told.into_iter().enumerate();
+    besides(frames.filter_map(|(frame, told)| Some((frame + 1, told?))))
 }
 
 /// A component: its model and its anatomical axes, where they are known.
@@ -170,6 +187,12 @@ impl Part {
         Ok(Self { model, axes })
     }
 
+    /// The mesh and its axes, where both are known.
+    fn known(&self) -> Option<(Mesh<'_>, &Pose)> {
+        let (model, axes) = (self.model.as_ref()?, self.axes.as_ref()?);
+        Some((*model.as_model().mesh(), &axes.model_from_field))
+    }
+
     /// The rotation from the axes in which the field takes a joint to the file's: none where no axes are known.
     fn joint_axes(&self, side: kinematics::Side) -> Pose {
         let axes = self.axes.as_ref();
@@ -184,7 +207,7 @@ fn say(name: &str, axes: &AnatomicalAxes) {
     println!("{name} anterior, superior, right: {axes}");
     if !axes.are_files_own {
         eprintln!(
-            "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
+            "the {name} file's axes are more than 10 degrees off those of its shape, or across the knee more than 5, so that those of its shape are taken"
         );
     }
     if !axes.front_is_known {
@@ -196,11 +219,7 @@ fn say(name: &str, axes: &AnatomicalAxes) {
 
 /// The joint of two models whose axes are known.
 fn joint<'p>(femur: &'p Part, tibia: &'p Part, side: kinematics::Side) -> Option<Joint<'p>> {
-    let known = |part: &'p Part| {
-        let (model, axes) = (part.model.as_ref()?, part.axes.as_ref()?);
-        Some((*model.as_model().mesh(), &axes.model_from_field))
-    };
-    Joint::new(known(femur)?, known(tibia)?, side)
+    Joint::new(femur.known()?, tibia.known()?, side)
 }
 
 fn known_axes(

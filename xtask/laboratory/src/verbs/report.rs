@@ -69,6 +69,12 @@ pub fn run(args: Args) -> Result<u8> {
     };
     let film = report(study, &args)?;
     print(&args.out, &film);
+    if film.posed() == 0 {
+        eprintln!(
+            "no frame has poses of both components: there are no numbers of a joint in these files"
+        );
+        return Ok(exit::NOTHING_FOUND);
+    }
     Ok(match film.impossibilities().is_empty() {
         true => 0,
         false => exit::DOUBTFUL,

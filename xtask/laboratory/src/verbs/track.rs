@@ -6,6 +6,7 @@ mod film;
 mod follow;
 mod journal;
 mod metal;
+mod mirrored;
 mod part;
 mod partner;
 mod record;
@@ -110,6 +111,12 @@ pub fn run(args: Args) -> Result<u8> {
     let tracked = track(&request)?;
     for part in &tracked {
         println!("{part}");
+    }
+    for part in tracked.iter().filter(|part| !part.is_found()) {
+        let name = &part.component;
+        println!(
+            "{name} was not found in any frame; a place inside it leads there: --click {name}:FRAME:COLUMN,ROW"
+        );
     }
     let mut wrong = false;
     for told in impossible(&request.study, &request.out) {

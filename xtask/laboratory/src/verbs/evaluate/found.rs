@@ -8,6 +8,7 @@ use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::joint::beside::Lying;
 use fluoropose::library::ViewGrid;
 use fluoropose::locate::Located;
 use fluoropose::mesh::anatomy::field_axes;
@@ -26,6 +27,7 @@ use crate::finding::{
     build_library, find_poses, first_poses, offset_words,
 };
 use crate::measure::accuracy::{in_front, median_absolute};
+use crate::noise::DisturbanceOptions;
 use crate::sequence::{Folders, Seen, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 
@@ -66,6 +68,17 @@ impl Found {
     pub(super) fn poses(&self) -> Vec<Option<Pose>> {
         let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
         self.decisions.iter().map(pose).collect()
+    }
+
+    /// The same with how well their depths are known.
+    pub(super) fn lying(&self) -> Vec<Option<Lying>> {
+        let lying = |decision: &Option<Decision>| decision.as_ref().and_then(Decision::lying);
+        self.decisions.iter().map(lying).collect()
+    }
+
+    /// Its masks as they are.
+    pub(super) fn masks(&self) -> Result<Sequence<'_>> {
+        self.files.disturbed(&DisturbanceOptions::default())
     }
 
     /// The same as rows of a pose file.
@@ -204,7 +217,7 @@ impl<'s> Part<'s> {
 
     /// The rotation from the field's axes to the model's, as the study states it or the shape tells it. Where that does not
     /// tell which way is up, the directions alone, which the tilt asks for.
-    fn axes(&self) -> Result<Option<Pose>> {
+    pub(super) fn axes(&self) -> Result<Option<Pose>> {
         let Some(role) = self.component.role() else {
             return Ok(None);
         };

@@ -1,6 +1,7 @@
 //! The joint of a study, frame by frame.
 
 use anyhow::{Context, Result, bail};
+use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::joint::low_pass::LowPass;
 use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::relative::Relative;
@@ -46,6 +47,7 @@ pub struct Knee<'s> {
     name: String,
     side: Side,
     joint: Joint<'s>,
+    middles: Middles,
     /// The femoral axes.
     pub femur_axes: AnatomicalAxes,
     /// The tibial axes.
@@ -78,22 +80,17 @@ impl<'s> Knee<'s> {
         if !says(&sources.femur) || !says(&sources.tibia) {
             remarks.push("The covariances do not say what of them is the film's, so that it counts twice, as if it were wrong in each component by itself: `track` writes it now.".to_owned());
         }
-        let joint = Joint::new(
-            (
-                *sources.femur.model.as_model().mesh(),
-                &femur.model_from_field,
-            ),
-            (
-                *sources.tibia.model.as_model().mesh(),
-                &tibia.model_from_field,
-            ),
-            side,
-        );
+        let parts = [(&sources.femur, &femur), (&sources.tibia, &tibia)];
+        let [a, b] =
+            parts.map(|(body, axes)| (*body.model.as_model().mesh(), &axes.model_from_field));
+        let both = Joint::new(a, b, side).zip(Middles::new(a, b));
+        let (joint, middles) =
+            both.context("no part of the tibial model faces upwards like a tray's plate")?;
         Ok(Self {
             name: name.to_owned(),
             side,
-            joint: joint
-                .context("no part of the tibial model faces upwards like a tray's plate")?,
+            joint,
+            middles,
             femur_axes: femur,
             tibia_axes: tibia,
             remarks,
@@ -111,16 +108,20 @@ impl<'s> Knee<'s> {
             .collect();
         let mut memory = vec![0; self.joint.memory_needed()];
         let filtered = self.filtered(&relative, filtering, &mut memory)?;
+        let beside = self
+            .middles
+            .judge_poses(&lying(&sources.femur), &lying(&sources.tibia));
         let mut rows = Vec::new();
         for (frame, relative) in relative.iter().enumerate() {
             let joint: Option<JointFrame> = match relative {
                 Some(relative) => Some(self.joint.at(relative, &mut memory)?),
                 None => None,
             };
+            let row = JointRow::new(frame + 1, joint, sources.doubts.get(&frame).cloned());
             rows.push(JointRow {
                 filtered: filtered.get(frame).copied().flatten(),
                 checked: sources.checked.contains(&frame),
-                ..JointRow::new(frame + 1, joint, sources.doubts.get(&frame).cloned())
+                ..row.lying(beside.get(frame).copied().flatten())
             });
         }
         let mut outline = vec![[0.0; 2]; BORDER];
@@ -190,4 +191,13 @@ fn axes(body: &Body, role: Role) -> Result<AnatomicalAxes> {
             body.name
         )
     })
+}
+
+/// Poses with how well their depths are known.
+fn lying(body: &Body) -> Vec<Option<Lying>> {
+    let lying = |(frame, pose): (usize, &Option<Pose>)| {
+        let uncertain = body.uncertain.get(&frame);
+        Some(Lying::new((*pose)?, uncertain.map(|one| &one.covariance)))
+    };
+    body.poses.iter().enumerate().map(lying).collect()
 }

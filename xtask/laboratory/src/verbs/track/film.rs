@@ -19,6 +19,7 @@ use super::constants::learn_film;
 use super::follow::follow;
 use super::journal::Journal;
 use super::metal::begun;
+use super::mirrored::beside;
 use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
@@ -233,6 +234,7 @@ fn finish(
 ) -> Result<Vec<Tracked>> {
     let out = &run.request.out;
     let mut tracked = Vec::new();
+    let joint = beside(run, parts, films)?;
     for (number, part) in parts.iter().enumerate() {
         let other = (0..parts.len()).find(|&other| {
             let role = |number: usize| parts[number].role();
@@ -243,13 +245,14 @@ fn finish(
         });
         let (cells, middle) = (&films[number], part.middle());
         let femur = femur_of(part, parts, films);
-        let beside = KnownBeside {
+        let known = KnownBeside {
             other_depths_mm: &depths,
             femur: femur.as_ref(),
+            joint: &joint,
             other_shape: part.other_shape(),
             longest_gap: run.request.interpolate,
         };
-        let judged = conclude(cells, &margins[number], &beside, &middle);
+        let judged = conclude(cells, &margins[number], &known, &middle);
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))

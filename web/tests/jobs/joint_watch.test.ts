@@ -1,0 +1,82 @@
+import { describe, expect, it, vi } from 'vitest';
+import { setAxes } from '../../src/document/axes';
+import { addFrames, setModel, withCell } from '../../src/document/commands';
+import { Store } from '../../src/document/store';
+import { type Axes, type Candidate, cellOf, type Posed, verdictAlone, verdictOf } from '../../src/document/types';
+import { type Directions, directionsFromWords } from '../../src/geometry/axes';
+import { doubtsOf } from '../../src/results/doubts';
+import { surroundingsOf } from '../../src/results/surroundings';
+import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
+import { JointWatch } from '../../src/jobs/joint_watch';
+import type { JointProtocol } from '../../src/workers/protocol/joint';
+
+type Asked = JointProtocol['lyingBeside']['input'];
+
+const AXES: Axes = { directions: directionsFromWords('x y z') as Directions, from: 'shape', told: 'all' };
+
+function posed(z: number): Posed {
+  const judged = { misfit: 0.4, verdict: { word: 'good', because: 'it fits' } } as const;
+  const candidate: Candidate = { pose: { x: 0, y: 0, z, zRot: 0, xRot: 0, yRot: 0 }, unmatched: 1, drawn: 1, residual: 0.3, deviations: null, judged };
+  return { kind: 'posed', from: 'outline', origin: 'k', candidates: [candidate], chosen: 0, reason: null, decided: true, verdict: judged.verdict };
+}
+
+/** Three frames; a worker that tells those in which a tray lies 20 mm beside its femur. */
+function bench() {
+  const store = new Store();
+  const asked: Asked[] = [];
+  const call = async (_: string, input: Asked) => {
+    asked.push(input);
+    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? 'are the pictures mirrored?' : null));
+  };
+  const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }) };
+  new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);
+  const frame = (id: string) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 });
+  store.perform(addFrames(['a', 'b', 'c'].map(frame)));
+  for (const component of COMPONENT_NAMES) {
+    store.perform(setModel(component, { name: `${component}.stl`, sha256: component }));
+    store.perform(setAxes(component, AXES));
+  }
+  const put = (frameId: string, component: ComponentName, result: Posed | null) =>
+    store.amend((doc) => withCell(doc, { frameId, component }, { outline: null, result, resultOf: null }));
+  const word = (frameId: string, component: ComponentName) => verdictOf(cellOf(store.doc, frameId, component).result)?.word;
+  return { store, asked, put, word };
+}
+
+describe('joint watch', () => {
+  it('makes both poses doubtful, says why once, and takes it back when they are right', async () => {
+    const { store, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    put('a', 'tibia', posed(-1030));
+    put('b', 'femur', posed(-1000));
+    await vi.waitFor(() => expect([word('a', 'femur'), word('a', 'tibia'), word('b', 'femur')]).toEqual(['doubtful', 'doubtful', 'good']));
+    expect(store.ui.notice?.text).toBe('are the pictures mirrored?');
+    expect(doubtsOf(store.doc).map(({ place }) => place.component)).toEqual(['femur', 'tibia']);
+    put('a', 'tibia', posed(-1001));
+    await vi.waitFor(() => expect(word('a', 'femur')).toBe('good'));
+    expect(cellOf(store.doc, 'a', 'femur').result).not.toHaveProperty('aside');
+  });
+
+  it('leaves what is worked out from poses to what they are by themselves', async () => {
+    const { store, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    put('a', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(word('a', 'femur')).toBe('doubtful'));
+    expect(verdictAlone(cellOf(store.doc, 'a', 'femur').result)?.word).toBe('good');
+    expect(surroundingsOf(store.doc, 'b', 'femur').neighbours).toHaveLength(1);
+    expect(store.state.history.past).toHaveLength(5);
+  });
+
+  it('asks once for what does not change, and takes all back where a component goes', async () => {
+    const { store, asked, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    expect(asked).toHaveLength(0);
+    put('a', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(word('a', 'tibia')).toBe('doubtful'));
+    store.show({});
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    expect(asked).toHaveLength(1);
+    put('a', 'femur', null);
+    await vi.waitFor(() => expect(word('a', 'tibia')).toBe('good'));
+    expect(asked).toHaveLength(1);
+  });
+});
