@@ -6,7 +6,7 @@
 //! gone on with; where that does not show all, what is found better counts, for a bright thing beside dark ones may be taken for a component.
 //!
 //! Things of the right shape come first, in all frames and ways: that takes moments. Then come dark places, which are many, and of such
-//! searches no more than [`VAIN`] are done in vain.
+//! searches no more than [`VAIN`] are done in vain, and none in a way while another one shows something.
 //!
 //! Whoever drives it asks for the [`SearchPlan::next`] step, does it, and gives its answer.
 
@@ -182,9 +182,21 @@ impl SearchPlan {
             self.visit = 0;
         }
         // One more visit of each looks beside what was found.
-        let each = self.visits.len() + 1;
-        let order = self.alone?;
-        (self.visit < each * self.ways).then(|| (order[self.visit / each], self.visit % each))
+        let (each, order) = (self.visits.len() + 1, self.alone?);
+        let leads = !is_empty(way_of(parts, self.ways, order[0]));
+        while self.visit < each * self.ways {
+            let (turn, visit) = (self.visit / each, self.visit % each);
+            let is_dark = self
+                .visits
+                .get(visit)
+                .is_some_and(|visit| visit.1 == Places::Dark);
+            // What another way shows of a film in which one shows something has its shape, or is hardly there.
+            if turn == 0 || !leads || !is_dark {
+                return Some((order[turn], visit));
+            }
+            self.visit += 1;
+        }
+        None
     }
 
     /// The next step of a pass of a visit.

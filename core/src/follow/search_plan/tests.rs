@@ -246,7 +246,11 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
     let mut order: Vec<usize> = (0..ways).collect();
     order.sort_by_key(|&way| is_empty(&plain[way].parts));
     for &way in &order {
-        for &visit in &list {
+        let is_led = way != order[0] && !is_empty(&plain[order[0]].parts);
+        for &visit in list
+            .iter()
+            .filter(|visit| !is_led || visit.1 != Places::Dark)
+        {
             plain[way].alone(visit);
         }
         if plain[way].beside() {
