@@ -5,12 +5,15 @@
 //! each line that passes through it; both triangles beside an edge are cut at the same place, so a place between them is
 //! counted once. The reciprocal of the depth is linear on the image of a triangle, however steeply that is seen.
 
+mod course;
 mod cut;
 mod groups;
 
 use core::mem::replace;
 use core::ops::Range;
 
+use course::{Course, ORIGIN};
+pub use course::{INNER, POINTS, STEP};
 use cut::Seen;
 pub use groups::LineGroup;
 use groups::{Grid, NONE, SPANNED};
@@ -24,25 +27,13 @@ use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::{Projected, RenderError, project};
 
-/// Distance between places on a line, pixels.
-pub const STEP: f64 = 0.25;
-/// The first place: this far inside the line's origin, pixels.
-pub const INNER: f64 = 12.0;
-/// Places on a line; the last is 8 pixels outside.
-pub const POINTS: usize = 81;
-/// The place that is the line's origin.
-const ORIGIN: usize = (INNER / STEP) as usize;
 /// Most lines: 16 bits number their groups.
 pub const MOST_LINES: usize = NONE as usize / SPANNED;
 
 /// A line across an outline, and the path of the rays to places on it through the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathLine {
-    /// Continuous image coordinates of the origin, and the unit direction outwards.
-    origin: [f64; 2],
-    direction: [f64; 2],
-    /// The first place that is measured; those before it are taken to be as it is.
-    first: u16,
+    course: Course,
     /// The triangle that was added last, from 1.
     last: u32,
     /// Least and greatest depth of the surface behind the origin, mm; the second is 0 where there is none.
@@ -87,9 +78,11 @@ impl PathLine {
     #[must_use]
     pub fn at(origin: [f64; 2], direction: [f64; 2]) -> Self {
         Self {
-            origin,
-            direction,
-            first: 0,
+            course: Course {
+                origin,
+                direction,
+                first: 0,
+            },
             last: 0,
             depths: [f32::INFINITY, 0.0],
             paths: [0.0; POINTS],
@@ -99,7 +92,7 @@ impl PathLine {
 
     /// The same, but what lies before a place is left out: it is taken to be as there.
     pub(crate) fn starting_at(mut self, first: usize) -> Self {
-        self.first = first.min(ORIGIN) as u16;
+        self.course.first = first.min(ORIGIN) as u16;
         self
     }
 
@@ -119,17 +112,12 @@ impl PathLine {
         (depths[1] > 0.0).then_some(depths)
     }
 
-    /// The first place that is measured.
-    fn first(&self) -> usize {
-        usize::from(self.first)
-    }
-
     /// Adds the depth of a triangle that lies on both sides of the line, to the places inside it. `nearness` is the reciprocal of its
     /// corners' depths.
     #[inline(always)]
     fn add(&mut self, seen: &Seen, side: &Side, nearness: impl FnOnce() -> [f32; 3]) {
         let cuts = seen.cuts();
-        let [start, end] = cuts.map(|cut| cut.first_place(self.first));
+        let [start, end] = cuts.map(|cut| cut.first_place(self.course.first));
         if start < end {
             let nearness = nearness();
             let ends = cuts.map(|cut| [cut.along, cut.of(&nearness)]);
@@ -219,9 +207,12 @@ pub fn measure(
     }
     let images = project(model.mesh(), camera, pose, scratch)?;
     for line in &mut *lines {
-        *line = PathLine::at(line.origin, line.direction).starting_at(line.first());
+        let Course {
+            origin, direction, ..
+        } = line.course;
+        *line = PathLine::at(origin, direction).starting_at(line.course.first());
     }
-    let grid = Grid::of(lines, heads, groups);
+    let grid = Grid::of(lines.iter().map(|line| line.course), heads, groups);
     let middle = -pose.transform(&model.centre())[2] as f32;
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
     for (number, triangle) in (1..).zip(model.triangles()) {
@@ -256,13 +247,16 @@ fn nearness_of(model: &Model<'_>, pose: &Pose, vertex: u32) -> f32 {
 fn close(lines: &mut [PathLine], camera: &Camera) {
     let ([fx, fy], [cx, cy]) = (camera.focal(), camera.principal_point());
     for line in lines {
-        let (x, y) = ((line.origin[0] - cx) / fx, (line.origin[1] - cy) / fy);
+        let (x, y) = (
+            (line.course.origin[0] - cx) / fx,
+            (line.course.origin[1] - cy) / fy,
+        );
         let slant = sqrt(1.0 + x * x + y * y) as f32;
         // Of a surface that is inside out sums are negative.
         for path in &mut line.paths {
             *path = path.abs() * slant;
         }
-        let first = line.first();
+        let first = line.course.first();
         if let Some((before, [path, ..])) = line.paths.split_at_mut_checked(first) {
             before.fill(*path);
         }

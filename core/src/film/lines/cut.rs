@@ -1,6 +1,6 @@
 //! Where a line cuts a triangle.
 
-use super::POINTS;
+use super::course::POINTS;
 
 /// The corners of a triangle as a line sees them: how far beside it, and how far along it from its first place; in places. They lie on
 /// both sides.

@@ -1,7 +1,7 @@
 //! Lines by the tiles that they have places in, asked four at a time whether a triangle lies across them.
 
+use super::course::{Course, ORIGIN, POINTS, STEP};
 use super::cut::Seen;
-use super::{INNER, ORIGIN, POINTS, PathLine, STEP};
 use crate::image::contour::Point;
 use crate::image::scan::{FixedPoint, ONE};
 use crate::image::tiles::{TILES, Tiles};
@@ -56,7 +56,7 @@ impl LineGroup {
         }
     }
 
-    fn push(&mut self, number: usize, line: &PathLine) {
+    fn push(&mut self, number: usize, line: &Course) {
         let lane = usize::from(self.count) % LANES;
         let [column, row] = line.origin;
         let origin = FixedPoint::rounded(Point { column, row }).0.units();
@@ -126,19 +126,19 @@ pub(super) struct Grid<'g> {
 impl<'g> Grid<'g> {
     /// Enters each line in the lists of the tiles that it has places in.
     pub(super) fn of(
-        lines: &[PathLine],
+        lines: impl Iterator<Item = Course> + Clone,
         heads: &'g mut [u16],
         groups: &'g mut [LineGroup],
     ) -> Self {
         // All places of a line lie between its ends.
         let ends = lines
-            .iter()
-            .flat_map(|line| [line.first(), POINTS - 1].map(|point| pixel(line, point)));
+            .clone()
+            .flat_map(|line| [line.first(), POINTS - 1].map(|point| line.pixel(point)));
         let tiles = Tiles::around(ends, LEAST_PLACES);
         heads.fill(NONE);
         let mut used = 0;
-        for (number, line) in lines.iter().enumerate() {
-            for_each_tile(&tiles, line, |[column, row]| {
+        for (number, line) in lines.enumerate() {
+            for_each_tile(&tiles, &line, |[column, row]| {
                 let head = &mut heads[row * TILES + column];
                 if groups
                     .get(usize::from(*head))
@@ -148,7 +148,7 @@ impl<'g> Grid<'g> {
                     *head = used as u16;
                     used += 1;
                 }
-                groups[usize::from(*head)].push(number, line);
+                groups[usize::from(*head)].push(number, &line);
             });
         }
         Self {
@@ -189,13 +189,13 @@ impl<'g> Grid<'g> {
 }
 
 /// Calls `each` with the column and row of every tile that a line has places in.
-fn for_each_tile(tiles: &Tiles, line: &PathLine, mut each: impl FnMut([usize; 2])) {
+fn for_each_tile(tiles: &Tiles, line: &Course, mut each: impl FnMut([usize; 2])) {
     let (mut entered, mut before) = (0, None);
     let mut points = line.first()..POINTS;
     while let Some(point) = points.next() {
-        let tile = tiles.tile(pixel(line, point));
+        let tile = tiles.tile(line.pixel(point));
         // A tile that has both ends of a piece has all of it.
-        if tiles.tile(pixel(line, (point + STRIDE).min(POINTS - 1))) == tile {
+        if tiles.tile(line.pixel((point + STRIDE).min(POINTS - 1))) == tile {
             points.start += STRIDE - 1;
         }
         if before != Some(tile) && entered < SPANNED {
@@ -204,15 +204,4 @@ fn for_each_tile(tiles: &Tiles, line: &PathLine, mut each: impl FnMut([usize; 2]
             each(tile);
         }
     }
-}
-
-fn pixel(line: &PathLine, point: usize) -> [i32; 2] {
-    let along = STEP * point as f64 - INNER;
-    [0, 1].map(|axis| floor(line.origin[axis] + along * line.direction[axis]))
-}
-
-/// The whole number below, of what is no farther out than coordinates may be.
-fn floor(x: f64) -> i32 {
-    const BEYOND: i32 = 1 << 20;
-    (x + f64::from(BEYOND)) as i32 - BEYOND
 }

@@ -32,7 +32,9 @@ fn measured(model: &Model<'_>, pose: &Pose, lines: &mut [PathLine]) {
 
 /// Place and ray of each point of a line, the ray with depth 1.
 fn rays(line: &PathLine) -> impl Iterator<Item = [f64; 3]> + use<> {
-    let (origin, direction) = (line.origin, line.direction);
+    let Course {
+        origin, direction, ..
+    } = line.course;
     let ([fx, fy], [cx, cy]) = (camera().focal(), camera().principal_point());
     (0..POINTS).map(move |k| {
         let along = STEP * k as f64 - INNER;

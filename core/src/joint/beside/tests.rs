@@ -134,6 +134,7 @@ fn a_film_is_told_by_its_median_and_a_frame_by_itself() {
 }
 
 /// A tray of which nobody knows how far away it is tells nothing where the knee is seen from the side, and all of it from the front.
+#[cfg(feature = "alloc")]
 #[test]
 fn depths_that_are_not_known_tell_nothing() {
     let (middles, most) = middles();
