@@ -1,6 +1,6 @@
 //! Places of a whole frame where something dark has a shape that a component has from some side.
 //!
-//! Every region that a threshold could cut out ([`DarkRegions`]) and that has a possible size is compared with all views of the library, as
+//! Every region that a threshold could cut out (`DarkRegions`) and that has a possible size is compared with all views of the library, as
 //! the outline of a mask is. That needs nobody's click, and it takes a tenth of a second: rulers, bones and the borders of fields have other
 //! shapes, however dark they are.
 
