@@ -21,11 +21,16 @@ export class JointWatch {
   #asked: { readonly models: string; readonly pairs: readonly Pair[] } = { models: '', pairs: [] };
   #busy = false;
   #said: string | null = null;
+  /** What is still to be said: it does not take the place of what is being said. */
+  #toSay: string | null = null;
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#services = services;
     this.#worker = worker;
-    services.store.subscribe(() => void this.#look());
+    services.store.subscribe(() => {
+      this.#say();
+      void this.#look();
+    });
   }
 
   async #look(): Promise<void> {
@@ -58,8 +63,17 @@ export class JointWatch {
     if (!alike(pairsOf(store.doc), this.#asked.pairs)) return;
     store.amend((doc) => withAsides(doc, told));
     const first = told.find((sentence) => sentence !== null) ?? null;
-    if (first !== null && this.#said === null) store.say('info', first.endsWith('?') ? first : `${first}.`);
+    if (first === null || this.#said === null) this.#toSay = first;
     this.#said = first;
+    this.#say();
+  }
+
+  #say(): void {
+    const { store } = this.#services;
+    const sentence = this.#toSay;
+    if (sentence === null || store.ui.notice !== null) return;
+    this.#toSay = null;
+    store.say('info', sentence.endsWith('?') ? sentence : `${sentence}.`);
   }
 
   #partsOf({ components }: Doc): readonly [JointPart, JointPart] | null {
