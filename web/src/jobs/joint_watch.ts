@@ -34,9 +34,10 @@ export class JointWatch {
   }
 
   async #look(): Promise<void> {
-    const { doc } = this.#services.store;
+    const { doc, ui } = this.#services.store;
     const models = modelsOf(doc);
-    if (this.#busy || models === null) return;
+    // While a film is followed poses change with every frame, and a click would have to wait behind as many questions.
+    if (this.#busy || models === null || ui.jobs.length > 0) return;
     const pairs = pairsOf(doc);
     if (models === this.#asked.models && alike(pairs, this.#asked.pairs)) return;
     const parts = this.#partsOf(doc);
