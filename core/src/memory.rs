@@ -51,9 +51,9 @@ pub fn first<'m, T>(
     })
 }
 
-/// Makes room for `needed` values; memory that is there already stays.
+/// Makes room for `needed` values at least; what is there already stays.
 #[cfg(feature = "alloc")]
-pub(crate) fn grow<T: Clone + Default>(room: &mut alloc::vec::Vec<T>, needed: usize) {
+pub fn grow<T: Clone + Default>(room: &mut alloc::vec::Vec<T>, needed: usize) {
     room.resize(needed.max(room.len()), T::default());
 }
 

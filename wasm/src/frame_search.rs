@@ -58,6 +58,37 @@ enum Search {
     Joint(Box<JointSearch>),
 }
 
+impl Search {
+    /// The next part of it; gives whether there is more to do.
+    ///
+    /// # Errors
+    /// A sentence about a frame of another size.
+    fn go_on(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        component: &Component<'_>,
+        (finder, own, refine): (&mut FinderBuffers, &mut OneClickBuffers, &mut RefineBuffers),
+    ) -> Result<bool, JsError> {
+        let (model, camera) = (subject.model, subject.camera);
+        match self {
+            Self::Joint(search) => {
+                Ok(search.step(subject, image, &mut refine.borrow(model, camera)))
+            }
+            Self::Whole(search) => {
+                let Some(needs) = search.needs(camera) else {
+                    return Ok(false);
+                };
+                let finder = finder.borrow(component, camera, Kernels::PORTABLE);
+                let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
+                search
+                    .step(subject, image, component, &mut memory)
+                    .map_err(sentence)
+            }
+        }
+    }
+}
+
 #[wasm_bindgen]
 impl FrameSearch {
     /// With a library's bytes and the model that it was made from, for frames of the size that the calibration text is for.
@@ -236,22 +267,9 @@ impl FrameSearch {
                     }
                 });
             }
-            match kept {
-                None => Ok(false),
-                Some(Search::Joint(search)) => {
-                    Ok(search.step(&subject, image, &mut refine.borrow(&model, camera)))
-                }
-                Some(Search::Whole(search)) => {
-                    let Some(needs) = search.needs(camera) else {
-                        return Ok(false);
-                    };
-                    let finder = finder.borrow(&component, camera, Kernels::PORTABLE);
-                    let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
-                    search
-                        .step(&subject, image, &component, &mut memory)
-                        .map_err(sentence)
-                }
-            }
+            kept.as_mut().map_or(Ok(false), |search| {
+                search.go_on(&subject, image, &component, (finder, own, refine))
+            })
         };
         let hidden = beside.map(|beside| beside.hidden.as_slice());
         frame.look(|frame| {

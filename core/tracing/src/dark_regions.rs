@@ -62,39 +62,9 @@ impl<'m> DarkRegions<'m> {
         let order = &order[..seen];
         join(levels, picture, order, parent, marks);
         area.fill(1);
-        for counts in [&mut *sides, &mut *contrast, &mut *open] {
-            counts.fill(0);
-        }
-        for &cell in order {
-            let cell = cell as usize;
-            let mut inner = 0;
-            picture.neighbours(cell, |next| {
-                if levels[next] == BLOCKED {
-                    return;
-                }
-                inner += 1;
-                // A side is the border's of all regions that hold the one cell, up to those that hold the other too.
-                if let Some(step) = levels[next]
-                    .checked_sub(levels[cell])
-                    .filter(|&step| step > 0)
-                {
-                    let step = u32::from(step);
-                    sides[cell] = sides[cell].wrapping_add(1);
-                    contrast[cell] = contrast[cell].wrapping_add(step);
-                    sides[next] = sides[next].wrapping_sub(1);
-                    contrast[next] = contrast[next].wrapping_sub(step);
-                }
-            });
-            open[cell] = 4 - inner;
-        }
+        count_borders(levels, picture, order, [&mut *sides, contrast, open]);
         for counts in [&mut *area, &mut *sides, &mut *contrast, &mut *open] {
-            for &cell in order {
-                if let Some(sum) = counts.get(cell as usize).copied()
-                    && let Some(above) = counts.get_mut(parent[cell as usize] as usize)
-                {
-                    *above = above.wrapping_add(sum);
-                }
-            }
+            add_to_parents(counts, order, parent);
         }
         Ok(Self {
             levels,
@@ -211,6 +181,48 @@ fn join(levels: &[u16], picture: &Window, order: &[u32], parent: &mut [u32], roo
                 parent[root as usize] = cell;
             }
         });
+    }
+}
+
+/// Counts, for each cell that is of the picture, the sides that its region's border has more than those of the regions in it (wrapping below 0), the
+/// differences of levels across them, and the sides beyond which the picture ends.
+fn count_borders(
+    levels: &[u16],
+    picture: &Window,
+    order: &[u32],
+    [sides, contrast, open]: [&mut [u32]; 3],
+) {
+    for counts in [&mut *sides, &mut *contrast, &mut *open] {
+        counts.fill(0);
+    }
+    for &cell in order {
+        let cell = cell as usize;
+        let mut inner = 0;
+        picture.neighbours(cell, |next| {
+            if levels[next] == BLOCKED {
+                return;
+            }
+            inner += 1;
+            // A side is the border's of all regions that hold the one cell, up to those that hold the other too.
+            let step = levels[next].checked_sub(levels[cell]);
+            if let Some(step) = step.filter(|&step| step > 0).map(u32::from) {
+                sides[cell] = sides[cell].wrapping_add(1);
+                contrast[cell] = contrast[cell].wrapping_add(step);
+                sides[next] = sides[next].wrapping_sub(1);
+                contrast[next] = contrast[next].wrapping_sub(step);
+            }
+        });
+        open[cell] = 4 - inner;
+    }
+}
+
+/// Adds what was counted for each region to the one that holds it, the smallest first.
+fn add_to_parents(counts: &mut [u32], order: &[u32], parent: &[u32]) {
+    for &cell in order {
+        let own = counts[cell as usize];
+        if let Some(above) = counts.get_mut(parent[cell as usize] as usize) {
+            *above = above.wrapping_add(own);
+        }
     }
 }
 

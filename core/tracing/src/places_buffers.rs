@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Word;
 use fluoropose::locate::Workspace;
+use fluoropose::memory::grow;
 
 use crate::seeds::seeds_needed;
 use crate::shapes::{ShapeMemory, shapes_needed};
@@ -40,8 +41,4 @@ impl PlacesBuffers {
             },
         }
     }
-}
-
-fn grow<T: Clone + Default>(room: &mut Vec<T>, needed: usize) {
-    room.resize(needed.max(room.len()), T::default());
 }

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use super::memory::{OneClickMemory, OneClickNeeds};
 use fluoropose::image::mask::Word;
 use fluoropose::locate::Workspace;
+use fluoropose::memory::grow;
 use fluoropose::refine::RefineMemory;
 
 /// Owns what a [`OneClickMemory`] borrows of its own; what it shares with the finder comes from there.
@@ -46,8 +47,4 @@ impl OneClickBuffers {
             refine,
         }
     }
-}
-
-fn grow<T: Clone + Default>(room: &mut Vec<T>, needed: usize) {
-    room.resize(needed.max(room.len()), T::default());
 }
