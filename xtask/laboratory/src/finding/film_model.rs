@@ -5,7 +5,9 @@ use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
-use fluoropose::finder::{correct_candidates, look_around, onto_target};
+use fluoropose::finder::{
+    Candidate, Limits, Verdict, correct_candidates, judge_fit, look_around, onto_target,
+};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
@@ -111,14 +113,24 @@ fn tell_polarity(parts: &mut [Filmed<'_>]) {
     }
 }
 
-/// Of each component the others, where they seem to be by now.
+/// Of each component the others, where they seem to be by now. A pose that fits nowhere says nothing of another component.
 fn beside_each<'f>(parts: &[Filmed<'f>]) -> Vec<Vec<Beside<'f>>> {
+    let fits = |found: &&Candidate| {
+        let verdict = judge_fit(&found.fit, true, &Limits::USUAL);
+        !matches!(verdict, Verdict::NoFit(_))
+    };
     let beside = |part: &Filmed<'f>| Beside {
         model: part.model,
         poses: part
             .found
             .iter()
-            .map(|found| Some(found.candidates.first()?.pose))
+            .map(|found| {
+                found
+                    .candidates
+                    .first()
+                    .filter(fits)
+                    .map(|found| found.pose)
+            })
             .collect(),
     };
     let all: Vec<Beside<'f>> = parts.iter().map(beside).collect();

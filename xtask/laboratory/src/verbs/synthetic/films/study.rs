@@ -7,7 +7,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::choice::{ChoiceContext, Counterpart};
-use fluoropose::finder::{Candidate, correct_candidates, look_around};
+use fluoropose::finder::{Candidate, Verdict, correct_candidates, look_around};
 use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
@@ -67,22 +67,29 @@ impl<'s> Study<'s> {
         Ok(outcomes.collect())
     }
 
-    /// The pose of a component that is chosen in a frame.
-    fn chosen(&self, frame: usize, part: usize) -> Option<Candidate> {
+    /// The pose of a component that is chosen in a frame, and how far it is trusted.
+    fn judged(&self, frame: usize, part: usize) -> Option<(Candidate, Verdict)> {
         let [femur, tibia] = &self.attempts[frame];
-        let (femur, _) = chosen(&femur.candidates, &ChoiceContext::default())?;
+        let chosen_femur = chosen(&femur.candidates, &ChoiceContext::default())?;
         if part == 0 {
-            return Some(femur);
+            return Some(chosen_femur);
         }
-        let context = with_femur(Some(Counterpart::Femur(femur.pose)));
-        chosen(&tibia.candidates, &context).map(|(tibia, _)| tibia)
+        let context = with_femur(Some(Counterpart::Femur(chosen_femur.0.pose)));
+        chosen(&tibia.candidates, &context)
     }
 
-    /// Beside each component the other one, where it is chosen.
+    fn chosen(&self, frame: usize, part: usize) -> Option<Candidate> {
+        self.judged(frame, part).map(|(chosen, _)| chosen)
+    }
+
+    /// Beside each component the other one, where it is chosen and fits.
     fn beside_each(&self) -> [Vec<Beside<'s>>; 2] {
         let frames = 0..self.films.len();
         [1, 0].map(|other| {
-            let pose = |frame| Some(self.chosen(frame, other)?.pose);
+            let pose = |frame| {
+                let (chosen, verdict) = self.judged(frame, other)?;
+                (!matches!(verdict, Verdict::NoFit(_))).then_some(chosen.pose)
+            };
             vec![Beside {
                 model: self.models[other],
                 poses: frames.clone().map(pose).collect(),
