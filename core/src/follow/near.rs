@@ -6,7 +6,7 @@ use heapless::Vec;
 use super::subject::Subject;
 use crate::finder::nearby::about;
 use crate::image::profile::grey_across;
-use crate::math::{norm, radians, scale, sin_cos};
+use crate::math::{Vector3, norm, radians, scale, sin_cos};
 use crate::pose::Pose;
 use crate::refine::edge::is_known;
 use crate::refine::{
@@ -32,9 +32,14 @@ const HALF_PX: f64 = 4.0;
 const WRONG: f64 = -0.25;
 /// Least part of the outline that must lie in the frame.
 const LEAST_KNOWN: f64 = 0.4;
-/// Places nearer to each other than this are one, pixels and steps of the turn.
+/// Places nearer to each other than this are one, pixels and degrees.
 const SAME_PX: f64 = 10.0;
-const SAME_TURNS: i32 = 2;
+const SAME_DEG: f64 = 2.0 * IN_PLANE_DEG;
+/// Places that are kept are moved by half of the steps, and then by a quarter: a plate is hardly thicker than a step, and refinement takes its
+/// other side for it.
+const FINER: [f64; 2] = [0.5, 0.25];
+/// Moves of a place by each of them, at most.
+const MOVES: usize = 4;
 
 /// A place of the outline.
 #[derive(Clone, Copy, Debug)]
@@ -42,12 +47,14 @@ struct Place {
     score: f64,
     /// Turn out of the plane about x and y, degrees.
     out: [f64; 2],
-    turns: i32,
+    /// In the plane, degrees.
+    turn_deg: f64,
     shift: [f64; 2],
 }
 
-/// The poses near an expected one whose outlines have the strongest edges, best first, each with the mean step along its outline in
-/// usual ones: within `reach_px` pixels, 12 degrees in the image plane and 5 out of it. `step` is the usual step of grey values.
+/// The poses near an expected one whose outlines have the strongest edges, each with the mean step along its outline in
+/// usual ones: within `reach_px` pixels, 12 degrees in the image plane and 5 out of it. Before each that is turned out of it comes the same without
+/// that. `step` is the usual step of grey values.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn at the pose.
@@ -60,34 +67,70 @@ pub fn near_poses(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<(f64, Pose), NEAR>, RefineError> {
     let middle = subject.model.bounds().centre;
+    let mut outline_at = |out: [f64; 2]| {
+        let pose = about(&middle, expected, &turn_out(out), [0.0; 3]);
+        Outline::of(subject, &pose, memory)
+    };
     let mut best: Vec<Place, NEAR> = Vec::new();
     for x in [0.0, OUT_OF_PLANE_DEG, -OUT_OF_PLANE_DEG] {
         for y in [0.0, OUT_OF_PLANE_DEG, -OUT_OF_PLANE_DEG] {
-            let turn = [radians(x), radians(y), 0.0];
-            let pose = about(&middle, expected, &turn, [0.0; 3]);
-            let outline = Outline::of(subject, &pose, memory)?;
+            let outline = &outline_at([x, y])?;
             let sliding = Sliding {
-                outline: &outline,
+                outline,
                 image,
                 step,
             };
             sliding.slide([x, y], reach_px, &mut best);
         }
     }
-    Ok(best
-        .iter()
-        .map(|place| (place.score, place.pose(subject, expected)))
-        .collect())
+    let mut settled: Vec<Place, NEAR> = Vec::new();
+    for place in best.into_iter().flat_map(Place::both) {
+        let outline = &outline_at(place.out)?;
+        let sliding = Sliding {
+            outline,
+            image,
+            step,
+        };
+        let place = sliding.settled(place);
+        if !settled.iter().any(|other| other.is(&place)) {
+            // Those that are left out are the last.
+            let _ = settled.push(place);
+        }
+    }
+    let pose = |place: &Place| (place.score, place.pose(subject, expected));
+    Ok(settled.iter().map(pose).collect())
+}
+
+/// Out of the image plane by so many degrees about x and y, as a rotation vector.
+fn turn_out(out_deg: [f64; 2]) -> Vector3 {
+    let [x, y] = out_deg.map(radians);
+    [x, y, 0.0]
 }
 
 impl Place {
+    /// Whether another is the same but for less than the steps.
+    fn is(&self, other: &Self) -> bool {
+        let near = |k: usize| (other.shift[k] - self.shift[k]).abs() < SAME_PX;
+        let turned = (other.turn_deg - self.turn_deg).abs() < SAME_DEG;
+        near(0) && near(1) && turned && other.out == self.out
+    }
+
+    /// The same without a turn out of the plane, and as it is: a component hardly turns out of the plane from frame to frame, and a place
+    /// that does tells how it turned in the plane.
+    fn both(self) -> [Self; 2] {
+        let level = Self {
+            out: [0.0; 2],
+            ..self
+        };
+        [level, self]
+    }
+
     fn pose(&self, subject: &Subject<'_>, expected: &Pose) -> Pose {
         let middle = subject.model.bounds().centre;
-        let [x, y] = self.out.map(radians);
-        let pose = about(&middle, expected, &[x, y, 0.0], [0.0; 3]);
+        let pose = about(&middle, expected, &turn_out(self.out), [0.0; 3]);
         let centre = pose.transform(&middle);
         let ray = scale(&centre, -1.0 / norm(&centre));
-        let turn = scale(&ray, radians(IN_PLANE_DEG * f64::from(self.turns)));
+        let turn = scale(&ray, radians(self.turn_deg));
         let [fx, fy] = subject.camera.focal();
         let [right, down] = self.shift;
         let depth = -centre[2];
@@ -158,9 +201,8 @@ impl Sliding<'_> {
     fn slide(&self, out: [f64; 2], reach_px: f64, best: &mut Vec<Place, NEAR>) {
         let steps = (reach_px / STEP_PX) as i32;
         for turns in -TURNS..=TURNS {
-            let turned = self
-                .outline
-                .turned(radians(IN_PLANE_DEG * f64::from(turns)));
+            let turn_deg = IN_PLANE_DEG * f64::from(turns);
+            let turned = self.outline.turned(radians(turn_deg));
             for down in -steps..=steps {
                 for right in -steps..=steps {
                     let shift = [right, down].map(|k| STEP_PX * f64::from(k));
@@ -170,7 +212,7 @@ impl Sliding<'_> {
                             Place {
                                 score,
                                 out,
-                                turns,
+                                turn_deg,
                                 shift,
                             },
                         );
@@ -178,6 +220,37 @@ impl Sliding<'_> {
                 }
             }
         }
+    }
+
+    /// A place after moves by finer steps, each to where edges are stronger.
+    fn settled(&self, mut best: Place) -> Place {
+        for part in FINER {
+            let (px, deg) = (part * STEP_PX, part * IN_PLANE_DEG);
+            for _ in 0..MOVES {
+                let from = best;
+                for turn in [-deg, 0.0, deg] {
+                    let turn_deg = from.turn_deg + turn;
+                    let turned = self.outline.turned(radians(turn_deg));
+                    for [right, down] in [[0.0, 0.0], [px, 0.0], [-px, 0.0], [0.0, px], [0.0, -px]]
+                    {
+                        let shift = [from.shift[0] + right, from.shift[1] + down];
+                        let score = self.score(&turned, shift).unwrap_or(f64::MIN);
+                        if score > best.score {
+                            best = Place {
+                                score,
+                                turn_deg,
+                                shift,
+                                ..from
+                            };
+                        }
+                    }
+                }
+                if best.score <= from.score {
+                    break;
+                }
+            }
+        }
+        best
     }
 
     /// Mean step along the outline, in usual steps; `None` where too little of it lies in the frame.
@@ -207,17 +280,100 @@ impl Sliding<'_> {
 
 /// Keeps the best of the places that are one.
 fn insert(best: &mut Vec<Place, NEAR>, place: Place) {
-    let same = |other: &Place| {
-        let near = |k: usize| (other.shift[k] - place.shift[k]).abs() < SAME_PX;
-        let turned = (other.turns - place.turns).abs() < SAME_TURNS;
-        near(0) && near(1) && turned && other.out == place.out
-    };
     if best
         .iter()
-        .any(|other| same(other) && other.score >= place.score)
+        .any(|other| other.is(&place) && other.score >= place.score)
     {
         return;
     }
-    best.retain(|other| !same(other));
+    best.retain(|other| !other.is(&place));
     keep(best, place, |other| -other.score);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::frame::Frame;
+    use proptest::prelude::*;
+    use std::vec::Vec as Many;
+
+    const SIDE: usize = 160;
+    const MIDDLE: f64 = 80.0;
+    /// Half of the sides of a plate that is hardly thicker than a step.
+    const HALF: [f64; 2] = [40.0, 5.0];
+
+    /// A dark plate about a place, turned counter-clockwise on the screen.
+    fn plate([right, down]: [f64; 2], turn_deg: f64) -> Many<u8> {
+        let (sin, cos) = sin_cos(radians(turn_deg));
+        let grey = |k: usize| {
+            let x = (k % SIDE) as f64 + 0.5 - MIDDLE - right;
+            let y = (k / SIDE) as f64 + 0.5 - MIDDLE - down;
+            let (along, across) = (x * cos - y * sin, x * sin + y * cos);
+            let is_metal = along.abs() < HALF[0] && across.abs() < HALF[1];
+            if is_metal { 40 } else { 200 }
+        };
+        (0..SIDE * SIDE).map(grey).collect()
+    }
+
+    fn outline() -> Outline {
+        let mut samples = Vec::new();
+        for k in 0..40 {
+            let at = 2.0 * f64::from(k) - HALF[0] + 1.0;
+            for side in [-1.0, 1.0] {
+                let _ = samples.push([at, side * HALF[1], 0.0, side]);
+            }
+        }
+        for k in 0..5 {
+            let at = 2.0 * f64::from(k) - HALF[1] + 1.0;
+            for side in [-1.0, 1.0] {
+                let _ = samples.push([side * HALF[0], at, side, 0.0]);
+            }
+        }
+        Outline {
+            samples,
+            middle: [MIDDLE; 2],
+        }
+    }
+
+    /// How far a sample on a long side lies across from that side of the plate, pixels.
+    fn across_from_plate(
+        sample: &[f64; 4],
+        settled: &Place,
+        shift: [f64; 2],
+        turn_deg: f64,
+    ) -> f64 {
+        let place = [0, 1].map(|k| sample[k] + settled.shift[k] - shift[k]);
+        let (sin, cos) = sin_cos(radians(turn_deg));
+        let (across, side) = (place[0] * sin + place[1] * cos, sample[3]);
+        (across.abs() - HALF[1])
+            .abs()
+            .max(if across * side < 0.0 { HALF[1] } else { 0.0 })
+    }
+
+    proptest! {
+        #[test]
+        fn a_place_within_a_step_of_a_plate_settles_on_its_edges(
+            shift in proptest::array::uniform2(-3.0..3.0f64), turn_deg in -1.5..1.5f64,
+        ) {
+            let pixels = plate(shift, turn_deg);
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
+            let image = ImageTarget {
+                frame: &frame,
+                unknown: None,
+                polarity: Polarity::DarkImplant,
+                film: None,
+            };
+            let outline = outline();
+            let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
+            let start = Place { score: f64::MIN, out: [0.0; 2], turn_deg: 0.0, shift: [0.0; 2] };
+            let settled = sliding.settled(start);
+            prop_assert!(settled.score > 0.9, "{settled:?}");
+            // Readings lie four pixels to each side: nearer than that no place is better than another.
+            let turned = outline.turned(radians(settled.turn_deg));
+            for sample in turned.iter().take(80) {
+                let px = across_from_plate(sample, &settled, shift, turn_deg);
+                prop_assert!(px < HALF_PX + 0.5, "{px} px: {settled:?}");
+            }
+        }
+    }
 }
