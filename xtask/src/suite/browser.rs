@@ -1,12 +1,13 @@
 //! The page: its types, its unit tests, and the whole of it in headless Chromium and Firefox.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Result, ensure};
 
 use super::report::{Report, Said};
 use super::{checked_profile, counts};
+use crate::output::Lane;
 use crate::page::{self, Build};
 use crate::setup::{command, node, programs};
 use crate::static_server::Server;
@@ -52,18 +53,29 @@ pub(crate) fn run(report: &mut Report) {
         );
         Ok(counts::of_vitest(&output)?.into())
     });
-    let dist = web.join("dist");
     report.step(PACKAGES, || {
-        package::make(&dist, &package::usual_folder()).map(|_| Said::default())
+        package::make(&dist(), &package::usual_folder()).map(|_| Said::default())
     });
-    report.step(FIREFOX, || in_firefox(&dist));
-    // Last: it wants the laboratory's program, which the native suite compiles meanwhile.
-    report.step(CHROMIUM, || in_chromium(&dist));
+    // Beside each other: Chromium waits for the laboratory's program, which the native suite compiles meanwhile, and both wait for
+    // screen frames most of the time.
+    let lane = |name| Lane { name, gives_way: 0 };
+    report.side_by_side(&[
+        (lane("firefox"), |report| {
+            report.step(FIREFOX, in_firefox);
+        }),
+        (lane("chromium"), |report| {
+            report.step(CHROMIUM, in_chromium);
+        }),
+    ]);
 }
 
-fn in_chromium(dist: &Path) -> Result<Said> {
+fn dist() -> PathBuf {
+    workspace::root().join("web/dist")
+}
+
+fn in_chromium() -> Result<Said> {
     let (chromium, laboratory) = (programs::chromium()?, checked_profile::laboratory()?);
-    drive(dist, |tests| {
+    drive(|tests| {
         // What the page writes is compared with what the command does.
         tests
             .env("FLUOROPOSE_CHROMIUM", chromium)
@@ -71,19 +83,19 @@ fn in_chromium(dist: &Path) -> Result<Said> {
     })
 }
 
-fn in_firefox(dist: &Path) -> Result<Said> {
+fn in_firefox() -> Result<Said> {
     let firefox = programs::firefox()?;
-    drive(dist, |tests| {
+    drive(|tests| {
         tests.env("FLUOROPOSE_FIREFOX", firefox).args(IN_FIREFOX);
     })
 }
 
 /// Serves the page and runs the tests of `tests/browser` against it; `with` says in which browser, and which tests.
-fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<Said> {
+fn drive(with: impl FnOnce(&mut Command)) -> Result<Said> {
     let folder = workspace::root().join("tests/browser");
     let node = node::node()?;
     node::install(&folder)?;
-    let server = Server::start(dist, 0)?;
+    let server = Server::start(&dist(), 0)?;
     let mut tests = Command::new(node);
     tests
         // On two cores: most of the time a page waits for a screen frame, or a hand for the page.
