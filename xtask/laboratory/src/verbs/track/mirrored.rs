@@ -7,6 +7,7 @@ use fluoropose::joint::beside::{Beside, Lying, Middles};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
+use rayon::prelude::*;
 
 use super::part::Part;
 use super::request::Told;
@@ -78,30 +79,23 @@ fn look_flipped(
     both: [(&Part<'_>, &Vec<Option<Pose>>); 2],
     apart: &[f64],
 ) -> Result<Vec<Option<[FlippedFit; 2]>>> {
-    let mut buffers = RefineBuffers::default();
-    let mut fits = Vec::new();
-    for frame in looked_at_flipped(apart) {
-        let mut fit =
-            |(part, poses): (&Part<'_>, &Vec<Option<Pose>>)| -> Result<Option<FlippedFit>> {
-                let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
-                    return Ok(None);
-                };
-                let model: Model<'_> = part.model();
-                part.see(run.film, frame, |_, image, _| {
-                    let view = CameraView::only(&part.camera, *image);
-                    let options = RefineOptions::default();
-                    knee.fit(
-                        role.component(),
-                        (&model, &pose),
-                        view,
-                        options,
-                        &mut buffers,
-                    )
-                })
-            };
-        let [femur, tibia] = both;
-        let (femur, tibia) = (fit(femur)?, fit(tibia)?);
-        fits.push(femur.zip(tibia).map(<[FlippedFit; 2]>::from));
-    }
-    Ok(fits)
+    let fit = |(frame, (part, poses)): (usize, (&Part<'_>, &Vec<Option<Pose>>))| {
+        let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
+            return Ok(None);
+        };
+        let model: Model<'_> = part.model();
+        part.see(run.film, frame, |_, image, _| {
+            let view = CameraView::only(&part.camera, *image);
+            let (component, options) = (role.component(), RefineOptions::default());
+            let mut buffers = RefineBuffers::default();
+            knee.fit(component, (&model, &pose), view, options, &mut buffers)
+        })
+    };
+    let frames = looked_at_flipped(apart);
+    let each = frames
+        .par_iter()
+        .flat_map(|&frame| both.map(|part| (frame, part)));
+    let fits: Vec<Option<FlippedFit>> = each.map(fit).collect::<Result<_>>()?;
+    let of_a_frame = |fits: &[Option<FlippedFit>]| Some([fits[0]?, fits[1]?]);
+    Ok(fits.chunks_exact(2).map(of_a_frame).collect())
 }
