@@ -7,12 +7,11 @@ use fluoropose::joint::beside::{Beside, Lying, Middles};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
-use rayon::prelude::*;
 
 use super::part::Part;
 use super::request::Told;
 use super::run::Run;
-use crate::choice::looked_at_flipped;
+use crate::choice::fit_flipped;
 use crate::files::Role;
 
 /// What is told of each frame; nothing where the film does not have one knee, or its axes are not known.
@@ -79,23 +78,26 @@ fn look_flipped(
     both: [(&Part<'_>, &Vec<Option<Pose>>); 2],
     apart: &[f64],
 ) -> Result<Vec<Option<[FlippedFit; 2]>>> {
-    let fit = |(frame, (part, poses)): (usize, (&Part<'_>, &Vec<Option<Pose>>))| {
-        let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
+    fit_flipped(apart, |component, frame| {
+        let of = |(part, _): &&(&Part<'_>, _)| part.role().map(Role::component) == Some(component);
+        let Some((part, Some(pose))) = both
+            .iter()
+            .find(of)
+            .map(|(part, poses)| (part, poses[frame]))
+        else {
             return Ok(None);
         };
         let model: Model<'_> = part.model();
         part.see(run.film, frame, |_, image, _| {
             let view = CameraView::only(&part.camera, *image);
-            let (component, options) = (role.component(), RefineOptions::default());
             let mut buffers = RefineBuffers::default();
-            knee.fit(component, (&model, &pose), view, options, &mut buffers)
+            knee.fit(
+                component,
+                (&model, &pose),
+                view,
+                RefineOptions::default(),
+                &mut buffers,
+            )
         })
-    };
-    let frames = looked_at_flipped(apart);
-    let each = frames
-        .par_iter()
-        .flat_map(|&frame| both.map(|part| (frame, part)));
-    let fits: Vec<Option<FlippedFit>> = each.map(fit).collect::<Result<_>>()?;
-    let of_a_frame = |fits: &[Option<FlippedFit>]| Some([fits[0]?, fits[1]?]);
-    Ok(fits.chunks_exact(2).map(of_a_frame).collect())
+    })
 }
