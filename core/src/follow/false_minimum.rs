@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::side_margin::{SideMargin, side_margin};
-use super::side_samples::{SideSample, evidence_of, runs_to_go_over};
+use super::side_samples::{SideSample, runs_to_go_over};
 use super::sides::{Side, SideStep, choose_sides};
 use crate::math::ln;
 
@@ -35,7 +35,7 @@ pub(super) fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Op
 
 /// What the film says of the trail and of what was seen elsewhere.
 fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
-    let evidence = evidence_of(samples, |_, _| None);
+    let evidence: Vec<_> = samples.iter().map(|one| one.evidence(|_| None)).collect();
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps

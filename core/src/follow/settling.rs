@@ -136,7 +136,7 @@ impl Settling {
     /// Chooses the sides, for a tibia with its femur, where that is known.
     pub fn choose(&mut self, femur: Option<&KnownFemur>) {
         self.samples.sort_by_key(|sample| sample.frame);
-        self.steps = chosen(&self.samples, femur);
+        self.steps = chosen(&self.samples, &self.middle, femur);
         self.choices
             .push((self.samples.clone(), self.steps.clone()));
     }
@@ -151,7 +151,7 @@ impl Settling {
     pub fn stands_with(&mut self, femur: Option<&KnownFemur>) -> bool {
         let mut last = None;
         for (samples, steps) in &self.choices {
-            let again = chosen(samples, femur);
+            let again = chosen(samples, &self.middle, femur);
             let same = |(one, other): (&SideStep, &SideStep)| one.side == other.side;
             if !again.iter().zip(steps).all(same) {
                 return false;
@@ -264,8 +264,8 @@ impl Settling {
 }
 
 /// The side of each frame that was seen from both, with the femur where that is known.
-fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
-    let evidence = evidence_of(samples, |frame, pose| femur?.tilt_deg(frame, pose));
+fn chosen(samples: &[SideSample], middle: &Vector3, femur: Option<&KnownFemur>) -> Vec<SideStep> {
+    let evidence = evidence_of(samples, middle, |frame, pose| femur?.tilt_deg(frame, pose));
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps
