@@ -9,7 +9,7 @@ use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
 use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
 #[cfg(feature = "alloc")]
-use crate::math::{Vector3, apply, atan2, cross, degrees, dot, norm, scale, transpose};
+use crate::math::{Vector3, apply, atan2, cross, degrees, dot, norm, transpose};
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -179,7 +179,7 @@ mod tests {
     use crate::follow::fake::turned;
     use crate::follow::sides::choose_sides;
     #[cfg(feature = "alloc")]
-    use crate::math::{Matrix3, multiply, rotation_by};
+    use crate::math::{Matrix3, multiply, rotation_by, scale};
     #[cfg(feature = "alloc")]
     use proptest::array::{uniform2, uniform3};
     #[cfg(feature = "alloc")]
