@@ -7,6 +7,8 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
+#[cfg(feature = "alloc")]
+use super::sides::ONE_DEG;
 use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
 #[cfg(feature = "alloc")]
 use crate::math::{Vector3, apply, atan2, cross, degrees, dot, norm, transpose};
@@ -87,6 +89,19 @@ impl SideSample {
             false => ways(&|a, b| out_of_plane_deg(a, b, middle)),
         };
         self.rival == Rival::Mirrored && crossed < CROSSED * stayed
+    }
+
+    /// The pose on the side that was chosen, where that of the frame `now` is rather the rejected one's.
+    #[cfg(feature = "alloc")]
+    pub(super) fn chosen_but_left(&self, side: Side, now: &FramePose) -> Option<FramePose> {
+        let other = self.free().filter(|_| self.rival == Rival::Mirrored)?;
+        let (chosen, rejected) = match side {
+            Side::Own => (self.own, other),
+            Side::Mirrored => (other, self.own),
+        };
+        let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
+        let are_two = deg(&chosen, &rejected) >= ONE_DEG;
+        (are_two && deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
     }
 
     /// The other pose; none where a person has chosen.
