@@ -10,7 +10,9 @@ use heapless::Vec;
 use super::frame_pose::{FramePose, From, probed, refined_within};
 use super::subject::Subject;
 use crate::finder::nearby::about;
-use crate::math::{Vector3, radians, sin_cos};
+use crate::math::eigen::eigen_symmetric;
+use crate::math::{Vector3, apply, radians, scale, sin_cos};
+use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{ImageTarget, RefineMemory};
 use crate::shortlist::keep;
@@ -18,6 +20,8 @@ use crate::shortlist::keep;
 /// Starts are turned by so many degrees about axes in the image plane, to so many sides.
 const TURN_DEG: f64 = 9.0;
 const SIDES: usize = 6;
+/// And by so many along what is known least.
+const VALLEY_DEG: [f64; 2] = [-5.0, 5.0];
 /// Poses nearer to each other than this are one, degrees; on their way they may be farther off.
 const SAME_DEG: f64 = 2.0;
 /// Least strength of the edges, in that of the pose on the trail.
@@ -38,7 +42,9 @@ pub fn elsewhere(
 ) -> Option<FramePose> {
     let known = || core::iter::once(own).chain(mirrored);
     let mut best: Option<FramePose> = None;
-    for near in near_elsewhere(subject, image, known().map(|known| &known.pose), memory) {
+    let around = near_elsewhere(subject, image, known().map(|known| &known.pose), memory);
+    let valley = along_valley(own, &subject.model.bounds().centre);
+    for near in around.into_iter().chain(valley) {
         let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
         let Some(found) = refined_within(most_px, subject, image, (&near, From::Near), memory)
         else {
@@ -77,6 +83,29 @@ fn near_elsewhere<'p>(
         keep(&mut least, (near.loss, near.pose), |one| one.0);
     }
     least.into_iter().map(|(_, pose)| pose).collect()
+}
+
+/// Starts along the turn that the frame tells least of, where its equations see the same all along: other minima lie there.
+fn along_valley(own: &FramePose, middle: &Vector3) -> Vec<Pose, { VALLEY_DEG.len() }> {
+    let step = own.covariance.and_then(|covariance| valley(&covariance));
+    let start = |deg: f64, [turn, shift]: &[Vector3; 2]| {
+        let by = radians(deg);
+        about(middle, &own.pose, &scale(turn, by), scale(shift, by))
+    };
+    step.iter()
+        .flat_map(|step| VALLEY_DEG.map(|deg| start(deg, step)))
+        .collect()
+}
+
+/// The turn of unit length that is known least, and the shift that goes with it, mm a radian.
+fn valley(covariance: &PoseCovariance) -> Option<[Vector3; 2]> {
+    let block = |row: usize| {
+        core::array::from_fn(|k: usize| covariance.matrix[row + k])
+            .map(|row: [f64; 6]| [row[0], row[1], row[2]])
+    };
+    let ([most, ..], [turn, ..]) = eigen_symmetric(&block(0));
+    let shift = scale(&apply(&block(3), &turn), 1.0 / most);
+    (most > 0.0).then_some([turn, shift])
 }
 
 fn are_one(one: &Pose, other: &Pose) -> bool {

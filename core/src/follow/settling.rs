@@ -10,6 +10,7 @@ use core::ops::Range;
 use super::cell::{Anchor, Cell};
 use super::crossing::{Crossing, frames_to_cross_from};
 use super::false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
+use super::frame_pose::FramePose;
 use super::known_femur::KnownFemur;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
@@ -171,7 +172,13 @@ impl Settling {
     /// By how much another pose of each frame is less likely; `None` where there is no other.
     #[must_use]
     pub fn margins(&self, cells: &[Cell]) -> Vec<Option<SideMargin>> {
-        other_margins(&self.samples, &self.steps, &self.elsewhere, cells)
+        other_margins(
+            &self.samples,
+            &self.steps,
+            &self.elsewhere,
+            cells,
+            &self.middle,
+        )
     }
 
     /// The next jump, and `after` the last one.
@@ -243,7 +250,7 @@ impl Settling {
             return (None, Phase::Cross);
         }
         self.rounds -= 1;
-        let runs = runs_elsewhere(&self.elsewhere, cells.len());
+        let runs = runs_elsewhere(&self.elsewhere, &self.middle, cells.len());
         for (run, _) in &runs {
             let run = self.within(run);
             let kept = cells[run.clone()].to_vec();
@@ -255,10 +262,19 @@ impl Settling {
         }
     }
 
-    /// The ways to elsewhere stay where they leave less; whether any does.
+    /// The ways to elsewhere stay where they leave less, in frames that were seen from there also what was seen; whether any does.
     fn keep_what_leaves_less(&mut self, cells: &mut [Cell]) -> bool {
         let mut any = false;
         for (run, before) in take(&mut self.before) {
+            let seen = self.elsewhere.iter();
+            for sample in seen.filter(|sample| run.contains(&sample.frame)) {
+                let now = cells[sample.frame].found();
+                let less =
+                    |other: &FramePose| now.is_none_or(|now| now.misfit_px > other.misfit_px);
+                if let Some(other) = sample.free().filter(less) {
+                    cells[sample.frame].improve(other);
+                }
+            }
             let cells = &mut cells[run];
             match leaves_less(cells, &before) {
                 true => any = true,
@@ -266,6 +282,21 @@ impl Settling {
             }
         }
         any
+    }
+
+    /// Where the way there leaves more than what was seen there.
+    fn take_what_was_seen(&self, run: &Range<usize>, cells: &mut [Cell]) {
+        let seen = self.elsewhere.iter();
+        for sample in seen.filter(|sample| run.contains(&sample.frame)) {
+            let cell = &mut cells[sample.frame];
+            let less = |other: &FramePose| {
+                let now = cell.found();
+                now.is_none_or(|now| now.misfit_px > other.misfit_px)
+            };
+            if let Some(other) = sample.free().filter(less) {
+                cell.improve(other);
+            }
+        }
     }
 
     fn to_look_again(&self, cells: &[Cell]) -> Option<SettlingStep> {

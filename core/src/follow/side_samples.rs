@@ -65,6 +65,7 @@ impl SideSample {
             apart_deg: other.map_or(180.0, apart),
             rival: self.rival,
             went_over: false,
+            goes_on: [false; 2],
         }
     }
 
@@ -89,6 +90,24 @@ impl SideSample {
             false => ways(&|a, b| out_of_plane_deg(a, b, middle)),
         };
         self.rival == Rival::Mirrored && crossed < CROSSED * stayed
+    }
+
+    /// Whether the other pose goes on from the trail of an earlier frame, and the trail from the other pose there, rather than the trail from
+    /// itself.
+    #[cfg(feature = "alloc")]
+    fn goes_on_from(&self, before: &Self, middle: &Vector3) -> [bool; 2] {
+        if self.rival == Rival::Mirrored {
+            return [false; 2];
+        }
+        let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose, middle);
+        let most = CROSSED * deg(&self.own, &before.own);
+        let is_near = |a: Option<&FramePose>, b: Option<&FramePose>| {
+            a.zip(b).is_some_and(|(a, b)| deg(a, b) < most)
+        };
+        [
+            is_near(self.other.as_ref(), Some(&before.own)),
+            is_near(Some(&self.own), before.other.as_ref()),
+        ]
     }
 
     /// The pose on the side that was chosen, where that of the frame `now` is rather the rejected one's.
@@ -139,6 +158,7 @@ pub(super) fn evidence_of(
     let each = samples.iter().zip(befores);
     let evidence = each.map(|(sample, before)| SideEvidence {
         went_over: before.is_some_and(|before| sample.went_over_since(before, middle)),
+        goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before, middle)),
         ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
     });
     evidence.collect()

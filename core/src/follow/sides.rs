@@ -41,6 +41,9 @@ pub struct SideEvidence {
     /// Whether the trail has gone over to the other side since the frame before: one side of the mirror is then the trail there and the
     /// other pose here.
     pub went_over: bool,
+    /// Of a pose elsewhere: whether it goes on from the trail of the frame before, and whether the trail goes on from what was elsewhere
+    /// there, rather than the trail from itself.
+    pub goes_on: [bool; 2],
 }
 
 /// Which of the two is the right one.
@@ -115,13 +118,14 @@ impl SideEvidence {
         [(-own).max(0.0), own.max(0.0)]
     }
 
-    /// What it costs to go over to the other side on the way to the next frame.
-    fn to(&self, next: &Self) -> f64 {
+    /// What it costs to go over on the way to the next frame: from the trail, and to it. Where the trail jumps, less.
+    fn to(&self, next: &Self) -> [f64; 2] {
         let [meeting, apart] = GO_OVER;
-        match self.meet() || next.meet() {
-            true => meeting,
-            false => apart,
-        }
+        next.goes_on
+            .map(|goes_on| match goes_on || self.meet() || next.meet() {
+                true => meeting,
+                false => apart,
+            })
     }
 
     /// What the pose of a number, 0 for the trail's, is in the frame before, and the other way round.
@@ -149,7 +153,7 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
             let (before, go_over) = (steps[last].costs, evidence[last].to(&evidence[at]));
             [0, 1].map(|to: usize| {
                 let from = evidence[at].across(to);
-                before[from].min(before[1 - from] + go_over)
+                before[from].min(before[1 - from] + go_over[1 - from])
             })
         });
         let led = led.unwrap_or_default();
@@ -165,7 +169,7 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
             let from = [0, 1].map(|side: usize| rest[side] + own[side]);
             rest = [0, 1].map(|side: usize| {
                 let to = next.across(side);
-                from[to].min(from[1 - to] + go_over)
+                from[to].min(from[1 - to] + go_over[side])
             });
         }
         let step = &mut steps[at];
@@ -196,6 +200,7 @@ mod tests {
             apart_deg,
             rival: Rival::Mirrored,
             went_over: false,
+            goes_on: [false; 2],
         }
     }
 
@@ -264,6 +269,27 @@ mod tests {
         };
         assert_eq!(sides(&turned), [own; 5]);
         assert_eq!(margins(&turned), margins(&film(true)));
+    }
+
+    #[test]
+    fn a_trail_that_jumps_is_left_where_it_does() {
+        let film = |jumps: bool| -> Vec<SideEvidence> {
+            let seen = |frame: usize| SideEvidence {
+                rival: Rival::Elsewhere,
+                goes_on: [jumps && frame == 6, false],
+                ..seen(frame, if frame < 6 { 1.08 } else { 0.7 }, None, 5.0)
+            };
+            (0..8).map(seen).collect()
+        };
+        let [stayed, left] = [false, true].map(|jumps| chosen(&film(jumps)));
+        assert!(stayed.iter().all(|step| step.0 == Side::Own));
+        let sides = left.iter().map(|step| step.0);
+        assert!(
+            sides
+                .enumerate()
+                .all(|(k, side)| (side == Side::Mirrored) == (k >= 6))
+        );
+        assert!(left[6].1 > 3.0 && left[7].1 > 3.0, "{left:?}");
     }
 
     #[test]
