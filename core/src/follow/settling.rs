@@ -266,15 +266,7 @@ impl Settling {
     fn keep_what_leaves_less(&mut self, cells: &mut [Cell]) -> bool {
         let mut any = false;
         for (run, before) in take(&mut self.before) {
-            let seen = self.elsewhere.iter();
-            for sample in seen.filter(|sample| run.contains(&sample.frame)) {
-                let now = cells[sample.frame].found();
-                let less =
-                    |other: &FramePose| now.is_none_or(|now| now.misfit_px > other.misfit_px);
-                if let Some(other) = sample.free().filter(less) {
-                    cells[sample.frame].improve(other);
-                }
-            }
+            self.take_what_was_seen(&run, cells);
             let cells = &mut cells[run];
             match leaves_less(cells, &before) {
                 true => any = true,
