@@ -10,8 +10,8 @@ use super::cell::Cell;
 pub const TRIES: usize = 3;
 /// Frames between those that are searched, at least.
 const SPACING: usize = 6;
-/// Shorter runs of frames without a pose are not searched.
-const RUN: usize = 8;
+/// Runs of so many frames without a pose are searched in any case.
+const LONG: usize = 8;
 
 /// Frames of a run in the order in which they are searched: its middle first, then between those before.
 #[must_use]
@@ -32,21 +32,36 @@ pub fn frames_to_search(run: &Range<usize>) -> Vec<usize, TRIES> {
     frames
 }
 
-/// The first run of frames of `range` in which a component was looked for or passed over, and not found, that is worth searching.
-#[must_use]
-pub fn run_to_search(cells: &[Cell], range: &Range<usize>) -> Option<Range<usize>> {
-    let end = range.end.min(cells.len());
-    let mut at = range.start;
-    while at < end {
-        let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
-        let next = (start..end).find(|&frame| cells[frame].found().is_some());
-        let run = start..next.unwrap_or(end);
-        if run.len() >= RUN {
-            return Some(run);
+/// Which runs of frames without a pose are searched: long ones, and short ones as long as that leads somewhere. A film of a few frames, far
+/// from each other, has short ones alone; in a long one a component is hidden there for a while.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RunsToSearch {
+    /// Frames of short runs that were searched in vain.
+    vain: usize,
+}
+
+impl RunsToSearch {
+    /// The first run of frames of `range` in which a component was looked for or passed over, and not found, that is worth searching.
+    #[must_use]
+    pub fn next(&self, cells: &[Cell], range: &Range<usize>) -> Option<Range<usize>> {
+        let end = range.end.min(cells.len());
+        let mut at = range.start;
+        while at < end {
+            let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
+            let next = (start..end).find(|&frame| cells[frame].found().is_some());
+            let run = start..next.unwrap_or(end);
+            if run.len() >= LONG || self.vain < TRIES {
+                return Some(run);
+            }
+            at = run.end;
         }
-        at = run.end;
+        None
     }
-    None
+
+    /// A frame of a run was searched in vain.
+    pub fn missed(&mut self, run: &Range<usize>) {
+        self.vain += usize::from(run.len() < LONG);
+    }
 }
 
 #[cfg(test)]
@@ -64,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_are_long_enough_are_searched() {
+    fn long_runs_are_searched_and_short_ones_until_it_is_in_vain() {
         let found = Ok(turned(0.0, 0.3));
         let cell = |frame| Cell::on_the_way(looked(frame));
         let cells: Vec<Cell> = (0..40)
@@ -73,8 +88,14 @@ mod tests {
                 _ => cell(found),
             })
             .collect();
-        assert_eq!(run_to_search(&cells, &(0..40)), Some(20..30));
-        assert_eq!(run_to_search(&cells, &(23..40)), None);
-        assert_eq!(run_to_search(&cells, &(30..40)), None);
+        let mut runs = RunsToSearch::default();
+        runs.missed(&(20..30));
+        for _ in 0..TRIES {
+            assert_eq!(runs.next(&cells, &(0..40)), Some(5..10));
+            runs.missed(&(5..10));
+        }
+        assert_eq!(runs.next(&cells, &(0..40)), Some(20..30));
+        assert_eq!(runs.next(&cells, &(23..40)), None);
+        assert_eq!(runs.next(&cells, &(30..40)), None);
     }
 }
