@@ -102,14 +102,20 @@ impl SideEvidence {
             Rival::Elsewhere => ELSEWHERE_RATIO,
         };
         let residual = ln(ratio.clamp(0.1, 10.0)) / ln(decisive);
-        if residual.abs() >= 1.0 || self.rival == Rival::Elsewhere {
+        if self.rival == Rival::Elsewhere {
             return residual.clamp(-MOST, MOST);
         }
         let tilt = match (self.own.tilt_deg, self.mirrored.tilt_deg) {
             (Some(own), Some(mirrored)) => (mirrored.abs() - own.abs()) / TILT_MARGIN_DEG,
             _ => 0.0,
         };
-        tilt.clamp(-1.0, 1.0) + HINT * residual
+        let tilt = tilt.clamp(-1.0, 1.0);
+        if residual.abs() < 1.0 {
+            return tilt + HINT * residual;
+        }
+        // The right side may not have come to its minimum: where the tilt contradicts, it counts too.
+        let against = if tilt * residual < 0.0 { tilt } else { 0.0 };
+        residual.clamp(-MOST, MOST) + against
     }
 
     /// What either side costs.
