@@ -58,6 +58,7 @@ mod state;
 mod subject;
 mod trail;
 mod trust;
+mod valley;
 mod way;
 
 pub use cell::{Anchor, Cell};

@@ -10,10 +10,9 @@ use heapless::Vec;
 use super::frame_pose::{FramePose, From, probed, refined_within};
 use super::sides::ELSEWHERE_RATIO;
 use super::subject::Subject;
+use super::valley::along_valley;
 use crate::finder::nearby::about;
-use crate::math::eigen::eigen_symmetric;
-use crate::math::{Vector3, apply, radians, scale, sin_cos, sqrt};
-use crate::pose::covariance::PoseCovariance;
+use crate::math::{Vector3, radians, sin_cos};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{ImageTarget, RefineMemory};
 use crate::shortlist::keep;
@@ -21,11 +20,6 @@ use crate::shortlist::keep;
 /// Starts are turned by so many degrees about axes in the image plane, to so many sides.
 const TURN_DEG: f64 = 9.0;
 const SIDES: usize = 6;
-/// And by so many along what is known least.
-const VALLEY_DEG: f64 = 5.0;
-/// And by so many standard deviations of it.
-const VALLEY_DEVIATIONS: f64 = 2.0;
-const VALLEY: usize = 4;
 /// Poses nearer to each other than this are one, degrees; on their way they may be farther off.
 const SAME_DEG: f64 = 2.0;
 /// Least strength of the edges, in that of the pose on the trail.
@@ -90,31 +84,6 @@ fn near_elsewhere<'p>(
         keep(&mut least, (near.loss, near.pose), |one| one.0);
     }
     least.into_iter().map(|(_, pose)| pose).collect()
-}
-
-/// Starts along the turn that the frame tells least of, where its equations see the same all along: other minima lie there.
-fn along_valley(own: &FramePose, middle: &Vector3) -> Vec<Pose, VALLEY> {
-    let step = own.covariance.and_then(|covariance| valley(&covariance));
-    let start = |by: f64, [turn, shift]: &[Vector3; 2]| {
-        about(middle, &own.pose, &scale(turn, by), scale(shift, by))
-    };
-    let starts = step.iter().flat_map(|(deviation, step)| {
-        let far = radians(VALLEY_DEG);
-        let near = VALLEY_DEVIATIONS * deviation;
-        [-far, far, -near, near].map(|by| start(by, step))
-    });
-    starts.collect()
-}
-
-/// The turn of unit length that is known least, with its standard deviation, radians, and the shift that goes with it, mm a radian.
-fn valley(covariance: &PoseCovariance) -> Option<(f64, [Vector3; 2])> {
-    let block = |row: usize| {
-        core::array::from_fn(|k: usize| covariance.matrix[row + k])
-            .map(|row: [f64; 6]| [row[0], row[1], row[2]])
-    };
-    let ([most, ..], [turn, ..]) = eigen_symmetric(&block(0));
-    let shift = scale(&apply(&block(3), &turn), 1.0 / most);
-    (most > 0.0).then(|| (sqrt(most), [turn, shift]))
 }
 
 fn are_one(one: &Pose, other: &Pose) -> bool {

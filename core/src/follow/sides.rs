@@ -73,6 +73,8 @@ pub(super) const ONE_DEG: f64 = 4.0;
 const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
+/// What it costs to stay on a trail that jumps where another pose does not.
+const JUMP: f64 = 0.5;
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
 pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 /// What residuals say that decide nothing by themselves.
@@ -124,14 +126,21 @@ impl SideEvidence {
         [(-own).max(0.0), own.max(0.0)]
     }
 
-    /// What it costs to go over on the way to the next frame: from the trail, and to it. Where the trail jumps, less.
-    fn to(&self, next: &Self) -> [f64; 2] {
+    /// What the ways to the next frame cost: row by row from the trail and from the other pose, to the trail and to the other pose.
+    /// Where the trail jumps and the other pose does not, it is the trail that goes over.
+    fn to(&self, next: &Self) -> [[f64; 2]; 2] {
         let [meeting, apart] = GO_OVER;
-        next.goes_on
-            .map(|goes_on| match goes_on || self.meet() || next.meet() {
-                true => meeting,
-                false => apart,
-            })
+        let over = match self.meet() || next.meet() {
+            true => meeting,
+            false => apart,
+        };
+        let [leaves, comes] = next.goes_on.map(|goes_on| if goes_on { 0.0 } else { over });
+        let jump = if next.goes_on.contains(&true) {
+            JUMP
+        } else {
+            0.0
+        };
+        [[jump, leaves], [comes, 0.0]]
     }
 
     /// What the pose of a number, 0 for the trail's, is in the frame before, and the other way round.
@@ -156,10 +165,10 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
     for at in 0..count {
         let own = evidence[at].costs();
         let led = at.checked_sub(1).map(|last| {
-            let (before, go_over) = (steps[last].costs, evidence[last].to(&evidence[at]));
+            let (before, ways) = (steps[last].costs, evidence[last].to(&evidence[at]));
             [0, 1].map(|to: usize| {
-                let from = evidence[at].across(to);
-                before[from].min(before[1 - from] + go_over[1 - from])
+                let by = |from: usize| before[from] + ways[from][evidence[at].across(to)];
+                by(0).min(by(1))
             })
         });
         let led = led.unwrap_or_default();
@@ -171,11 +180,11 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
     let mut rest = [0.0; 2];
     for at in (0..count).rev() {
         if let Some(next) = evidence.get(at + 1) {
-            let (own, go_over) = (next.costs(), evidence[at].to(next));
-            let from = [0, 1].map(|side: usize| rest[side] + own[side]);
-            rest = [0, 1].map(|side: usize| {
-                let to = next.across(side);
-                from[to].min(from[1 - to] + go_over[side])
+            let (own, ways) = (next.costs(), evidence[at].to(next));
+            let behind = [0, 1].map(|side: usize| rest[side] + own[side]);
+            rest = [0, 1].map(|from: usize| {
+                let by = |to: usize| ways[from][next.across(to)] + behind[to];
+                by(0).min(by(1))
             });
         }
         let step = &mut steps[at];
