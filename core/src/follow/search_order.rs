@@ -8,8 +8,10 @@ use super::cell::Cell;
 
 /// In so many frames of a run at most a component is searched.
 pub const TRIES: usize = 3;
-/// Frames between those that are searched, at least.
+/// Frames from one that is searched to the next, at least; of a short run a part of it, as the frames of a short film are often far from each
+/// other.
 const SPACING: usize = 6;
+const PART: usize = 4;
 /// Runs of so many frames without a pose are searched in any case.
 const LONG: usize = 8;
 
@@ -17,11 +19,12 @@ const LONG: usize = 8;
 #[must_use]
 pub fn frames_to_search(run: &Range<usize>) -> Vec<usize, TRIES> {
     let mut frames: Vec<usize, TRIES> = Vec::new();
+    let spacing = SPACING.min(run.len().div_ceil(PART));
     let mut parts = 2;
     while !frames.is_full() && parts <= 16 {
         for k in (1..parts).step_by(2) {
             let frame = run.start + k * run.len() / parts;
-            let near = |other: &usize| other.abs_diff(frame) < SPACING;
+            let near = |other: &usize| other.abs_diff(frame) < spacing;
             if frame < run.end && !frames.iter().any(near) {
                 // Those that find no room are of later parts, and not wanted.
                 let _ = frames.push(frame);
@@ -72,9 +75,12 @@ mod tests {
     use std::vec::Vec;
 
     #[test]
-    fn the_middle_comes_first_and_short_films_are_searched_once() {
+    fn the_middle_comes_first() {
         assert_eq!(frames_to_search(&(0..120))[..], [60, 30, 90]);
-        assert_eq!(frames_to_search(&(10..14))[..], [12]);
+        assert_eq!(frames_to_search(&(0..8))[..], [4, 2, 6]);
+        assert_eq!(frames_to_search(&(10..14))[..], [12, 11, 13]);
+        assert_eq!(frames_to_search(&(5..7))[..], [6, 5]);
+        assert_eq!(frames_to_search(&(5..6))[..], [5]);
         assert!(frames_to_search(&(5..5)).is_empty());
     }
 

@@ -66,6 +66,7 @@ impl SideSample {
             rival: self.rival,
             went_over: false,
             goes_on: [false; 2],
+            turn_deg: 0.0,
         }
     }
 
@@ -159,6 +160,9 @@ pub(super) fn evidence_of(
     let evidence = each.map(|(sample, before)| SideEvidence {
         went_over: before.is_some_and(|before| sample.went_over_since(before, middle)),
         goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before, middle)),
+        turn_deg: before.map_or(0.0, |before| {
+            out_of_plane_deg(&before.own.pose, &sample.own.pose, middle)
+        }),
         ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
     });
     evidence.collect()

@@ -44,6 +44,8 @@ pub struct SideEvidence {
     /// Of a pose elsewhere: whether it goes on from the trail of the frame before, and whether the trail goes on from what was elsewhere
     /// there, rather than the trail from itself.
     pub goes_on: [bool; 2],
+    /// By how much the trail turns out of the image plane from the frame before, degrees.
+    pub turn_deg: f64,
 }
 
 /// Which of the two is the right one.
@@ -73,7 +75,7 @@ pub(super) const ONE_DEG: f64 = 4.0;
 const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
-/// What it costs to stay on a trail that jumps where another pose does not.
+/// What it costs to stay on a trail that jumps by [`ONE_DEG`] or less where another pose does not; by more, as much more, up to [`MOST`].
 const JUMP: f64 = 0.5;
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
 pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
@@ -135,10 +137,9 @@ impl SideEvidence {
             false => apart,
         };
         let [leaves, comes] = next.goes_on.map(|goes_on| if goes_on { 0.0 } else { over });
-        let jump = if next.goes_on.contains(&true) {
-            JUMP
-        } else {
-            0.0
+        let jump = match next.goes_on.contains(&true) {
+            true => JUMP * (next.turn_deg / ONE_DEG).clamp(1.0, MOST / JUMP),
+            false => 0.0,
         };
         [[jump, leaves], [comes, 0.0]]
     }
@@ -216,6 +217,7 @@ mod tests {
             rival: Rival::Mirrored,
             went_over: false,
             goes_on: [false; 2],
+            turn_deg: 0.0,
         }
     }
 
@@ -305,6 +307,28 @@ mod tests {
                 .all(|(k, side)| (side == Side::Mirrored) == (k >= 6))
         );
         assert!(left[6].1 > 3.0 && left[7].1 > 3.0, "{left:?}");
+    }
+
+    #[test]
+    fn a_frame_that_the_trail_jumps_to_and_from_is_open() {
+        let film = |turn_deg: f64| -> Vec<SideEvidence> {
+            let seen = |frame: usize| SideEvidence {
+                rival: Rival::Elsewhere,
+                goes_on: [frame == 4, frame == 5],
+                turn_deg,
+                ..seen(frame, 1.3, None, 5.0)
+            };
+            (0..8).map(seen).collect()
+        };
+        assert_eq!(chosen(&film(1.0))[4].0, Side::Own);
+        assert_eq!(chosen(&film(17.0))[4].0, Side::Mirrored);
+        assert!(
+            chosen(&film(17.0))
+                .iter()
+                .filter(|step| step.0 == Side::Mirrored)
+                .count()
+                == 1
+        );
     }
 
     #[test]
