@@ -8,7 +8,7 @@ use super::cell::{Anchor, Cell};
 use super::side_margin::{SideMargin, side_margin};
 use super::side_samples::{SideSample, evidence_of, runs_to_go_over};
 use super::sides::{Side, SideStep, choose_sides};
-use crate::math::{Vector3, ln};
+use crate::math::ln;
 
 /// So often a film may go over to what was seen elsewhere: from one minimum to another, and from there once more.
 pub const ROUNDS: usize = 2;
@@ -18,12 +18,8 @@ const WORTH: f64 = 1.0;
 /// Runs of frames, of a film of `frames`, in which what was seen elsewhere is the right one, each with the frame to follow it
 /// from. They are to be kept where that way [`leaves_less`], and all frames seen anew, at most [`ROUNDS`] times.
 #[must_use]
-pub fn runs_elsewhere(
-    samples: &[SideSample],
-    middle: &Vector3,
-    frames: usize,
-) -> Vec<(Range<usize>, Anchor)> {
-    let mut steps = elsewhere_steps(samples, middle);
+pub fn runs_elsewhere(samples: &[SideSample], frames: usize) -> Vec<(Range<usize>, Anchor)> {
+    let mut steps = elsewhere_steps(samples);
     for step in steps.iter_mut().filter(|step| step.margin < WORTH) {
         step.side = Side::Own;
     }
@@ -31,19 +27,15 @@ pub fn runs_elsewhere(
 }
 
 /// By how much what was seen elsewhere is less likely than the trail, in each frame of a film; `None` where nothing was.
-pub(super) fn elsewhere_margins(
-    samples: &[SideSample],
-    middle: &Vector3,
-    frames: usize,
-) -> Vec<Option<SideMargin>> {
-    let steps = elsewhere_steps(samples, middle);
+pub(super) fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Option<SideMargin>> {
+    let steps = elsewhere_steps(samples);
     let margin = |frame| side_margin(samples, &steps, frame);
     (0..frames).map(margin).collect()
 }
 
 /// What the film says of the trail and of what was seen elsewhere.
-fn elsewhere_steps(samples: &[SideSample], middle: &Vector3) -> Vec<SideStep> {
-    let evidence = evidence_of(samples, middle, |_, _| None);
+fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
+    let evidence = evidence_of(samples, |_, _| None);
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps
@@ -83,7 +75,7 @@ mod tests {
     }
 
     fn runs(samples: &[SideSample]) -> Vec<Range<usize>> {
-        let runs = runs_elsewhere(samples, &[0.0; 3], 2 * samples.len()).into_iter();
+        let runs = runs_elsewhere(samples, 2 * samples.len()).into_iter();
         runs.map(|(run, _)| run).collect()
     }
 
@@ -94,13 +86,13 @@ mod tests {
         // One frame that errs, and a film that says as much of both.
         assert!(runs(&film(&[1.2, 1.1, 0.8, 1.2, 1.1])).is_empty());
         assert!(runs(&film(&[0.98, 1.01, 0.97, 1.0])).is_empty());
-        let margins = elsewhere_margins(&film(&[0.98, 1.01, 0.97, 1.0]), &[0.0; 3], 8);
+        let margins = elsewhere_margins(&film(&[0.98, 1.01, 0.97, 1.0]), 8);
         assert!(
             margins
                 .iter()
                 .all(|margin| margin.is_some_and(|one| one.margin < 1.0))
         );
-        let margins = elsewhere_margins(&slid, &[0.0; 3], 22);
+        let margins = elsewhere_margins(&slid, 22);
         assert!(
             margins[..13]
                 .iter()
@@ -118,7 +110,7 @@ mod tests {
         let mut given = film(&[0.8; 6]);
         given.iter_mut().for_each(|sample| sample.fixed = true);
         assert!(runs(&given).is_empty());
-        assert_eq!(elsewhere_margins(&given, &[0.0; 3], 3), [None; 3]);
+        assert_eq!(elsewhere_margins(&given, 3), [None; 3]);
         let mut alone = film(&[0.8; 6]);
         alone.iter_mut().for_each(|sample| sample.other = None);
         assert!(runs(&alone).is_empty());

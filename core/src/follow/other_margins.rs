@@ -10,12 +10,10 @@ use super::side_margin::{SideMargin, nearer_rival, nearest, side_margin};
 use super::side_samples::SideSample;
 use super::sides::{ONE_DEG, Rival, SideStep};
 use crate::finder::choice::DECISIVE_RATIO;
-use crate::math::Vector3;
 use crate::pose::geodesic_deg;
 
 /// By how much another pose of each frame is less likely; `None` where there is none. `samples` were seen from both sides of the mirror,
-/// `steps` is what [`super::choose_sides`] made of them, `beside` was seen from elsewhere; `cells` are the poses of the film now,
-/// `middle` is the middle of the model's box.
+/// `steps` is what [`super::choose_sides`] made of them, `beside` was seen from elsewhere; `cells` are the poses of the film now.
 ///
 /// The tilt of a tray errs alike in all frames, and its votes add up: where the side that was not chosen leaves so much less in any frame than is
 /// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where it leaves as much less than the
@@ -26,7 +24,6 @@ pub fn other_margins(
     steps: &[SideStep],
     beside: &[SideSample],
     cells: &[Cell],
-    middle: &Vector3,
 ) -> Vec<Option<SideMargin>> {
     let open = contradicted(samples, cells, usual_misfit(cells));
     let mirrored = |frame: usize| {
@@ -44,7 +41,7 @@ pub fn other_margins(
             false => margin,
         })
     };
-    let beside = elsewhere_margins(beside, middle, cells.len());
+    let beside = elsewhere_margins(beside, cells.len());
     let both = beside.into_iter().enumerate();
     both.map(|(frame, beside)| nearer_rival(mirrored(frame), beside))
         .collect()
@@ -139,7 +136,7 @@ mod tests {
         let evidence: Vec<_> = evidence.collect();
         let mut steps = vec![SideStep::default(); 7];
         crate::follow::choose_sides(&evidence, &mut steps);
-        let margins = other_margins(&samples, &steps, &[], &cells, &[0.0; 3]);
+        let margins = other_margins(&samples, &steps, &[], &cells);
         margins
             .iter()
             .map(|one| one.map_or(9.0, |one| one.margin))
@@ -151,7 +148,7 @@ mod tests {
         let (mut samples, cells) = film([0.62; 7], None);
         samples[0].fixed = true;
         let steps = vec![SideStep::default(); 7];
-        let margins = other_margins(&samples, &steps, &[], &cells, &[0.0; 3]);
+        let margins = other_margins(&samples, &steps, &[], &cells);
         assert_eq!(margins[0], None);
         assert!(margins[1].is_some());
     }
@@ -162,7 +159,7 @@ mod tests {
         let mut steps = vec![SideStep::default(); 7];
         steps.iter_mut().for_each(|step| step.margin = 5.0);
         let margin = |cells: &[Cell]| {
-            let margins = other_margins(&samples, &steps, &[], cells, &[0.0; 3]);
+            let margins = other_margins(&samples, &steps, &[], cells);
             margins[5].map(|one| one.margin)
         };
         assert_eq!(margin(&cells), Some(5.0));

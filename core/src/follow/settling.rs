@@ -143,7 +143,7 @@ impl Settling {
     /// Chooses the sides, for a tibia with its femur, where that is known.
     pub fn choose(&mut self, femur: Option<&KnownFemur>) {
         self.samples.sort_by_key(|sample| sample.frame);
-        self.steps = chosen(&self.samples, &self.middle, femur);
+        self.steps = chosen(&self.samples, femur);
         self.choices
             .push((self.samples.clone(), self.steps.clone()));
     }
@@ -158,7 +158,7 @@ impl Settling {
     pub fn stands_with(&mut self, femur: Option<&KnownFemur>) -> bool {
         let mut last = None;
         for (samples, steps) in &self.choices {
-            let again = chosen(samples, &self.middle, femur);
+            let again = chosen(samples, femur);
             let same = |(one, other): (&SideStep, &SideStep)| one.side == other.side;
             if !again.iter().zip(steps).all(same) {
                 return false;
@@ -172,13 +172,7 @@ impl Settling {
     /// By how much another pose of each frame is less likely; `None` where there is no other.
     #[must_use]
     pub fn margins(&self, cells: &[Cell]) -> Vec<Option<SideMargin>> {
-        other_margins(
-            &self.samples,
-            &self.steps,
-            &self.elsewhere,
-            cells,
-            &self.middle,
-        )
+        other_margins(&self.samples, &self.steps, &self.elsewhere, cells)
     }
 
     /// The next jump, and `after` the last one.
@@ -250,7 +244,7 @@ impl Settling {
             return (None, Phase::Cross);
         }
         self.rounds -= 1;
-        let runs = runs_elsewhere(&self.elsewhere, &self.middle, cells.len());
+        let runs = runs_elsewhere(&self.elsewhere, cells.len());
         for (run, _) in &runs {
             let run = self.within(run);
             let kept = cells[run.clone()].to_vec();
@@ -304,8 +298,8 @@ impl Settling {
 }
 
 /// The side of each frame that was seen from both, with the femur where that is known.
-fn chosen(samples: &[SideSample], middle: &Vector3, femur: Option<&KnownFemur>) -> Vec<SideStep> {
-    let evidence = evidence_of(samples, middle, |frame, pose| femur?.tilt_deg(frame, pose));
+fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
+    let evidence = evidence_of(samples, |frame, pose| femur?.tilt_deg(frame, pose));
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps

@@ -11,7 +11,7 @@ use super::frame_pose::FramePose;
 use super::sides::ONE_DEG;
 use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
 #[cfg(feature = "alloc")]
-use crate::math::{Vector3, apply, atan2, cross, degrees, dot, norm, transpose};
+use crate::math::{atan2, cross, degrees, dot, norm};
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -72,9 +72,9 @@ impl SideSample {
 
     /// Whether the trail has gone over to the other side between an earlier frame and this one: each pose is much nearer to the other
     /// one of the other frame. Where the part turns as far between the two as its sides are apart, the side that it is seen from tells:
-    /// limbs swing in the image plane, and mirror images differ out of it. `middle` is that of the model's box.
+    /// limbs swing in the image plane, and mirror images differ out of it.
     #[cfg(feature = "alloc")]
-    fn went_over_since(&self, before: &Self, middle: &Vector3) -> bool {
+    fn went_over_since(&self, before: &Self) -> bool {
         let (Some(other), Some(before_other)) = (&self.other, &before.other) else {
             return false;
         };
@@ -88,7 +88,7 @@ impl SideSample {
         let is_told = crossed < CROSSED * stayed || stayed < CROSSED * crossed;
         let [stayed, crossed] = match is_told {
             true => [stayed, crossed],
-            false => ways(&|a, b| out_of_plane_deg(a, b, middle)),
+            false => ways(&|a, b| out_of_plane_deg(a, b)),
         };
         self.rival == Rival::Mirrored && crossed < CROSSED * stayed
     }
@@ -96,11 +96,11 @@ impl SideSample {
     /// Whether the other pose goes on from the trail of an earlier frame, and the trail from the other pose there, rather than the trail from
     /// itself.
     #[cfg(feature = "alloc")]
-    fn goes_on_from(&self, before: &Self, middle: &Vector3) -> [bool; 2] {
+    fn goes_on_from(&self, before: &Self) -> [bool; 2] {
         if self.rival == Rival::Mirrored {
             return [false; 2];
         }
-        let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose, middle);
+        let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose);
         let most = CROSSED * deg(&self.own, &before.own);
         let is_near = |a: Option<&FramePose>, b: Option<&FramePose>| {
             a.zip(b).is_some_and(|(a, b)| deg(a, b) < most)
@@ -139,29 +139,27 @@ impl SideSample {
     }
 }
 
-/// Angle between the directions, in the model's axes, that a part is seen along at two poses: turns in the image plane leave them as they are.
+/// Angle between the directions of the camera's axis in the model's axes at two poses: turns in the image plane, and shifts, leave it as it is.
 #[cfg(feature = "alloc")]
-fn out_of_plane_deg(a: &Pose, b: &Pose, middle: &Vector3) -> f64 {
-    let seen_along = |pose: &Pose| apply(&transpose(&pose.rotation), &pose.transform(middle));
-    let [a, b] = [a, b].map(seen_along);
+fn out_of_plane_deg(a: &Pose, b: &Pose) -> f64 {
+    let [a, b] = [a, b].map(|pose| pose.rotation[2]);
     degrees(atan2(norm(&cross(&a, &b)), dot(&a, &b)))
 }
 
-/// What the frames of a film say of both their poses, in their order. `middle` is that of the model's box, `tilt_deg` gives the coronal tilt of a pose in a frame against
+/// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
 /// the other component, where that is known.
 #[cfg(feature = "alloc")]
 pub(super) fn evidence_of(
     samples: &[SideSample],
-    middle: &Vector3,
     tilt_deg: impl Fn(usize, &Pose) -> Option<f64>,
 ) -> Vec<SideEvidence> {
     let befores = core::iter::once(None).chain(samples.iter().map(Some));
     let each = samples.iter().zip(befores);
     let evidence = each.map(|(sample, before)| SideEvidence {
-        went_over: before.is_some_and(|before| sample.went_over_since(before, middle)),
-        goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before, middle)),
+        went_over: before.is_some_and(|before| sample.went_over_since(before)),
+        goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before)),
         turn_deg: before.map_or(0.0, |before| {
-            out_of_plane_deg(&before.own.pose, &sample.own.pose, middle)
+            out_of_plane_deg(&before.own.pose, &sample.own.pose)
         }),
         ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
     });
@@ -274,31 +272,29 @@ mod tests {
                 .map(|(turn, side)| multiply(&rotation_by(turn), side));
             let before = sample(0, [&rotation_by(&[0.0; 3]), &mirrored]);
             let behind = sample(8, if jumped { [&other, &one] } else { [&one, &other] });
-            let evidence = evidence_of(&[before, behind], &[0.0; 3], |_, _| None);
+            let evidence = evidence_of(&[before, behind], |_, _| None);
             prop_assert_eq!([evidence[0].went_over, evidence[1].went_over], [false, jumped]);
         }
 
         /// Where the limb swings in the image plane by more than its sides are apart.
         #[test]
         fn a_trail_that_jumped_is_known_however_the_limb_swings(
-            model in uniform3(-1.8..1.8f64), middle in uniform3(-40.0..40.0f64), place in uniform2(-60.0..60.0f64),
+            model in uniform3(-1.8..1.8f64), shift in uniform3(-90.0..90.0f64),
             apart in 0.08..1.2f64, swing in -0.9..0.9f64, turn in uniform3(-0.1..0.1f64), jumped in any::<bool>(),
         ) {
             let model = rotation_by(&model);
             let part_at = |swing: f64, tilt: f64, turn: f64| {
                 let mut found = turned(0.0, 0.5);
                 let tilted = multiply(&rotation_by(&[tilt + turn * apart, 0.0, 0.0]), &model);
-                let about = [place[0], place[1], -1000.0];
-                found.pose.rotation = multiply(&rotation_by(&scale(&about, swing / norm(&about))), &tilted);
-                let off = apply(&found.pose.rotation, &middle);
-                found.pose.translation = core::array::from_fn(|k| about[k] - off[k]);
+                found.pose.rotation = multiply(&rotation_by(&[0.0, 0.0, swing]), &tilted);
+                found.pose.translation = core::array::from_fn(|k| found.pose.translation[k] + shift[k] * swing);
                 found
             };
             let sample = |frame, own, other| SideSample { frame, own, rival: Rival::Mirrored, other: Some(other), fixed: false };
             let before = sample(0, part_at(0.0, 0.0, 0.0), part_at(0.0, apart, 0.0));
             let [one, other] = [part_at(swing, 0.0, turn[0]), part_at(swing, apart, turn[1])];
             let behind = if jumped { sample(8, other, one) } else { sample(8, one, other) };
-            let evidence = evidence_of(&[before, behind], &middle, |_, _| None);
+            let evidence = evidence_of(&[before, behind], |_, _| None);
             prop_assert_eq!(evidence[1].went_over, jumped);
         }
     }
