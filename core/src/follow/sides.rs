@@ -114,12 +114,13 @@ impl SideEvidence {
             _ => 0.0,
         };
         let tilt = tilt.clamp(-1.0, 1.0);
-        if residual.abs() < 1.0 {
-            return tilt + HINT * residual;
+        match residual.abs() >= 1.0 {
+            // What differs between model and part is the same in all frames, and so are their residuals, and the right side may not have
+            // come to its minimum: where the knee tells otherwise, they do not tell by themselves.
+            true if residual * tilt < 0.0 => residual.clamp(-MOST, MOST) + tilt,
+            true => residual.clamp(-MOST, MOST),
+            false => tilt + HINT * residual,
         }
-        // The right side may not have come to its minimum: where the tilt contradicts, it counts too.
-        let against = if tilt * residual < 0.0 { tilt } else { 0.0 };
-        residual.clamp(-MOST, MOST) + against
     }
 
     /// What either side costs.
@@ -239,6 +240,21 @@ mod tests {
             assert_eq!(side, Side::Own);
             assert!(margin >= 4.0, "{margin}");
         }
+    }
+
+    /// What four frames' residuals tell is one thing told four times.
+    #[test]
+    fn residuals_and_a_knee_that_contradict_each_other_leave_it_open() {
+        let film = |tilts: Option<[f64; 2]>| {
+            let frames = (0..4).map(|frame| seen(frame, 1.35, tilts, 18.0));
+            let frames: Vec<_> = frames.collect();
+            chosen(&frames)
+        };
+        let decided = film(None)[0];
+        assert!(decided.0 == Side::Own && decided.1 > 4.0);
+        assert_eq!(film(Some([1.0, 4.0])), film(None), "they agree");
+        let (_, margin) = film(Some([4.0, 1.0]))[0];
+        assert!(margin < 1.0, "{margin}");
     }
 
     #[test]
