@@ -172,6 +172,7 @@ impl WholeFrame {
             camera: subject.camera,
             polarity: image.polarity,
             excluded: image.unknown,
+            beside: None,
             film: None,
         };
         match click.step(&observation, Some(component), memory) {
