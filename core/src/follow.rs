@@ -35,6 +35,7 @@ mod film_reading;
 mod following;
 mod frame_pose;
 mod in_joint;
+mod joint_places;
 mod joint_search;
 #[cfg(feature = "alloc")]
 mod known_femur;
@@ -79,6 +80,7 @@ pub use frame_pose::{
     FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
 };
 pub use in_joint::{BENDS, InJoint, Limb};
+pub use joint_places::{JOINT_PLACES, JointPlaces};
 pub use joint_search::JointSearch;
 #[cfg(feature = "alloc")]
 pub use known_femur::KnownFemur;

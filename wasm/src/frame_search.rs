@@ -9,7 +9,7 @@ use fluoropose::finder::{Component, FinderBuffers};
 use fluoropose::follow::{FramePose, InJoint, JointSearch, Places, Subject};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent};
+use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
@@ -20,15 +20,16 @@ use fluoropose_tracing::reduced::ReducedPixels;
 use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::prelude::*;
 
-use self::other::{Beside, Other, limb_of};
+use self::other::{Beside, Other};
 use self::walk::Walk;
 use crate::film::film_model;
 use crate::hidden::with_mask;
 use crate::matcher::OpenLibrary;
+use crate::shape::Shape;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
-use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};
+use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
 
 /// Looks for a component in one frame after the other, in steps between which a worker can be called off.
 #[wasm_bindgen]
@@ -40,7 +41,7 @@ pub struct FrameSearch {
     polarity: Polarity,
     film: Option<FilmModel>,
     /// Which component it is and its axes, where its shape tells them.
-    limb: Option<(KneeComponent, AnatomicalAxes)>,
+    shape: Option<Shape>,
     /// The joint's other component, and where it is in the frame.
     other: Option<Other>,
     beside: Option<Beside>,
@@ -114,7 +115,7 @@ impl FrameSearch {
             camera: camera(calibration, width, height)?,
             polarity: Polarity::DarkImplant,
             film: None,
-            limb: None,
+            shape: None,
             other: None,
             beside: None,
             places: Places::All,
@@ -152,7 +153,7 @@ impl FrameSearch {
             true => KneeComponent::Femur,
             false => KneeComponent::Tibia,
         };
-        self.limb = Some((component, anatomical(axes, front_is_known)?));
+        self.shape = Some(Shape::of(component, axes, front_is_known)?);
         Ok(())
     }
 
@@ -168,11 +169,9 @@ impl FrameSearch {
         axes: &[f64],
         front_is_known: bool,
     ) -> Result<(), JsError> {
-        let axes = match axes {
-            [] => None,
-            axes => Some(anatomical(axes, front_is_known)?),
-        };
-        self.other = Some(Other::new(vertices, triangles, axes)?);
+        let own = self.shape.filter(|_| !axes.is_empty());
+        let shape = own.map(|own| Shape::of(own.other_component(), axes, front_is_known));
+        self.other = Some(Other::new(vertices, triangles, shape.transpose()?)?);
         Ok(())
     }
 
@@ -248,10 +247,9 @@ impl FrameSearch {
         let (finder, own, refine) = (&mut self.finder, &mut self.own, &mut self.refine);
         let (for_places, places) = (&mut self.for_places, self.places);
         let (other, beside) = (self.other.as_ref(), self.beside.as_ref());
-        let limb = limb_of(&self.model, self.limb);
+        let limb = self.shape.map(|shape| shape.limb(*model.mesh()));
         let joint = beside.filter(|beside| beside.in_joint);
-        let joint =
-            joint.and_then(|beside| Some(InJoint::beside(&other?.limb(limb?)?, &beside.pose)));
+        let joint = joint.and_then(|beside| Some(InJoint::beside(&other?.limb()?, &beside.pose)));
         let mut look = |image: &ImageTarget<'_>| {
             if fresh || kept.is_none() {
                 *kept = Some(match (&joint, &limb, beside) {
@@ -387,13 +385,4 @@ impl FrameSearch {
             Search::Joint(search) => search.found(),
         }
     }
-}
-
-/// Axes as a page has them.
-fn anatomical(axes: &[f64], front_is_known: bool) -> Result<AnatomicalAxes, JsError> {
-    Ok(AnatomicalAxes {
-        model_from_field: axes_from(axes)?,
-        front_is_known,
-        are_files_own: false,
-    })
 }

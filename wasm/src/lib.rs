@@ -24,6 +24,7 @@ mod library;
 mod library_check;
 mod matcher;
 mod search_plan;
+mod shape;
 mod working_model;
 
 pub use anatomy::{ShapeAxes, shape_axes, shape_component};

@@ -206,7 +206,11 @@ impl Sliding<'_> {
             for down in -steps..=steps {
                 for right in -steps..=steps {
                     let shift = [right, down].map(|k| STEP_PX * f64::from(k));
-                    if let Some(score) = self.score(&turned, shift) {
+                    let least = match best.is_full() {
+                        true => best.last().map_or(f64::MIN, |worst| worst.score),
+                        false => f64::MIN,
+                    };
+                    if let Some(score) = self.score_above(least, &turned, shift) {
                         insert(
                             best,
                             Place {
@@ -255,8 +259,18 @@ impl Sliding<'_> {
 
     /// Mean step along the outline, in usual steps; `None` where too little of it lies in the frame.
     fn score(&self, samples: &[[f64; 4]], shift: [f64; 2]) -> Option<f64> {
+        self.score_above(f64::MIN, samples, shift)
+    }
+
+    /// The same; `None` also where it cannot be more than `least`, which mostly half of the samples tell.
+    fn score_above(&self, least: f64, samples: &[[f64; 4]], shift: [f64; 2]) -> Option<f64> {
         let (mut sum, mut known) = (0.0, 0usize);
-        for &[column, row, right, down] in samples {
+        for (number, &[column, row, right, down]) in samples.iter().enumerate() {
+            // A full step, the most there is, at each of the rest.
+            let rest = (samples.len() - number) as f64;
+            if sum + rest < least * (known as f64 + rest) {
+                return None;
+            }
             let place = [0, 1].map(|k| [column, row][k] + self.outline.middle[k] + shift[k]);
             let grey = |t| {
                 is_known(self.image, place, [right, down], t)

@@ -12,6 +12,9 @@
 //!    it that are wrong, and then onto the edges of the frame itself ([`mod@fluoropose::refine`]), where the region no longer
 //!    matters. What counts in the end is how much of the model's outline lies on edges of the right sign ([`Support`]).
 //!
+//! Where the joint's other component is known, and regions do not convince, the model's outline slides over the frame where its joint leaves
+//! it (`in_joint`): a faint tray is no region. What it leads to is judged as all answers are.
+//!
 //! The resulting outline is the model's silhouette at the refined pose or, without a component, the region with the
 //! sharpest border ([`OneClick::draw_region`]). The work is done in steps ([`OneClick::step`]), so that a page can show
 //! progress and stop in between:
@@ -40,6 +43,7 @@ mod prompt;
 mod scoring;
 mod support;
 
+mod in_joint;
 mod job;
 mod judged;
 mod preprocessing;

@@ -228,6 +228,7 @@ impl WholeFrame {
             camera: self.reduction.camera(),
             polarity: seen.polarity,
             excluded: seen.unknown,
+            beside: None,
             film: None,
         };
         let step = click.step(&observation, Some(component), memory);

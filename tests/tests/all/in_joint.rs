@@ -2,8 +2,9 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::follow::{InJoint, JointSearch, Limb, Subject};
+use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
-use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::math::{norm, subtract};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::{KneeComponent, anatomical_axes};
@@ -12,9 +13,11 @@ use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose_laboratory::finding::{Clicker, Neighbour, ViewOptions, build_library};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::Side;
 use fluoropose_tests::{femur, surface, tibia, turned};
+use fluoropose_tracing::one_click::Prompt;
 
 use crate::track::{SIDE, frame};
 
@@ -72,58 +75,140 @@ fn one_of_the_expected_poses_is_near_at_any_flexion_and_whatever_the_axes() {
     }
 }
 
-/// What the search finds of a tray beside its femur in a frame whose tray is so much darker than what surrounds it.
-fn found(darker: f64, number: usize) -> (Option<Pose>, Pose) {
-    let (models, _) = knee(&Pose::IDENTITY);
-    let (thigh, tray) = (femur(), tibia());
-    let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
-    let Position { femur, tibia, .. } = film[number];
-    let grey = frame([(&thigh, femur, 120.0), (&tray, tibia, darker)], number);
-    let [known, sought] = &models;
-    let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
-    let camera = camera.expect("valid");
-    let mut words = vec![0; words_needed(SIDE, SIDE)];
-    let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-    let mut scratch = vec![Projected::default(); scratch_needed(&known.as_model())];
-    let pose = Pose::from(femur);
-    render(&known.as_model(), &camera, &pose, &mut scratch, &mut mask).expect("in front");
-    let femurs = mask.into_mask();
-    let frame = Frame::new(&grey, SIDE, SIDE, SIDE).expect("fits");
+/// A frame of a knee that bends, and what is known of it.
+struct Scene {
+    grey: Vec<u8>,
+    models: [OwnedModel; 2],
+    camera: Camera,
+    /// Of the femur, and of the tray.
+    poses: [Pose; 2],
+    /// The femur's silhouette.
+    femurs: Vec<Word>,
+}
+
+impl Scene {
+    /// With a tray that is so much darker than what surrounds it.
+    fn of(darker: f64, number: usize) -> Self {
+        let (models, _) = knee(&Pose::IDENTITY);
+        let (thigh, tray) = (femur(), tibia());
+        let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
+        let Position { femur, tibia, .. } = film[number];
+        let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
+        let camera = camera.expect("valid");
+        let mut femurs = vec![0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut femurs, SIDE, SIDE).expect("fits");
+        let known = models[0].as_model();
+        let mut scratch = vec![Projected::default(); scratch_needed(&known)];
+        let poses = [femur, tibia].map(Pose::from);
+        render(&known, &camera, &poses[0], &mut scratch, &mut mask).expect("in front");
+        Self {
+            grey: frame([(&thigh, femur, 120.0), (&tray, tibia, darker)], number),
+            models,
+            camera,
+            poses,
+            femurs,
+        }
+    }
+
+    fn frame(&self) -> Frame<'_, u8> {
+        Frame::new(&self.grey, SIDE, SIDE, SIDE).expect("fits")
+    }
+
+    fn covered(&self) -> Mask<'_> {
+        Mask::new(&self.femurs, SIDE, SIDE).expect("fits")
+    }
+
+    fn joint(&self) -> InJoint {
+        InJoint::beside(&self.limb(0), &self.poses[0])
+    }
+
+    fn limb(&self, part: usize) -> Limb<'_> {
+        limb(&self.models[part], KINDS[part])
+    }
+}
+
+/// What the search finds of a tray beside its femur.
+fn found(scene: &Scene) -> Option<Pose> {
+    let (frame, femurs) = (scene.frame(), scene.covered());
     let image = ImageTarget {
         frame: &frame,
         unknown: Some(&femurs),
         polarity: Polarity::DarkImplant,
         film: None,
     };
-    let model = sought.as_model();
+    let model = scene.models[1].as_model();
     let planes = symmetry_planes(model.mesh());
-    let subject = Subject::new(&model, &planes, &camera);
+    let subject = Subject::new(&model, &planes, &scene.camera);
     let mut buffers = RefineBuffers::default();
-    let mut memory = buffers.borrow(&model, &camera);
-    let joint = InJoint::beside(&limb(known, KneeComponent::Femur), &pose);
-    let mut search = JointSearch::new(&image, &joint, &limb(sought, KneeComponent::Tibia));
+    let mut memory = buffers.borrow(&model, &scene.camera);
+    let mut search = JointSearch::new(&image, &scene.joint(), &scene.limb(1));
     let mut steps = 1;
     while search.step(&subject, &image, &mut memory) {
         steps += 1;
     }
     assert!(steps > 8 && search.progress() >= 1.0);
-    (search.found().map(|found| found.pose), tibia.into())
+    search.found().map(|found| found.pose)
+}
+
+/// How far a tray is turned from where it is in a scene, or its mirror image, degrees, and how far it lies across the view, mm.
+fn off_truth(scene: &Scene, pose: &Pose) -> [f64; 2] {
+    let (truth, model) = (scene.poses[1], &scene.models[1]);
+    let plane = symmetry_planes(model.as_model().mesh())[0];
+    let turn = [*pose, mirror_pose(pose, &plane)]
+        .map(|side| geodesic_deg(&side.rotation, &truth.rotation));
+    [turn[0].min(turn[1]), off(pose, &truth, model)[0]]
 }
 
 #[test]
 fn a_faint_tray_is_found_beside_its_femur_and_none_where_there_is_none() {
-    let (models, _) = knee(&Pose::IDENTITY);
-    let planes = symmetry_planes(models[1].as_model().mesh());
     for number in [0, 40, 79] {
-        let (pose, truth) = found(30.0, number);
-        let pose = pose.expect("it is there");
-        let sides = [pose, mirror_pose(&pose, &planes[0])];
-        let turn = sides.map(|side| geodesic_deg(&side.rotation, &truth.rotation));
-        let [across, _] = off(&pose, &truth, &models[1]);
+        let scene = Scene::of(30.0, number);
+        let [turn, across] = off_truth(&scene, &found(&scene).expect("it is there"));
         assert!(
-            turn[0].min(turn[1]) < 3.0 && across < 2.0,
-            "{number}: {turn:?}, {across} mm"
+            turn < 3.0 && across < 2.0,
+            "{number}: {turn} deg, {across} mm"
         );
-        assert_eq!(found(0.0, number).0, None, "{number}");
+        assert_eq!(found(&Scene::of(0.0, number)), None, "{number}");
+    }
+}
+
+/// What is darker than a tray right beside it is its region's: the click alone leads elsewhere.
+#[test]
+fn a_click_into_a_tray_that_is_no_region_leads_to_it_where_the_femur_is_known() {
+    let mut scene = Scene::of(30.0, 40);
+    let model = scene.models[1].as_model();
+    let middle = scene.poses[1].transform(&model.bounds().centre);
+    let click = scene.camera.project(&middle).expect("in front");
+    shade_around(&mut scene.grey, click);
+    let views = ViewOptions::default();
+    let library = build_library(model, scene.camera, &views, -middle[2]).expect("built");
+    let mut clicker = Clicker::open(&library.bytes, model, scene.camera).expect("valid");
+    let (joint, clicked) = (scene.joint(), scene.limb(1));
+    let neighbour = Neighbour {
+        joint: &joint,
+        clicked: &clicked,
+        covered: scene.covered(),
+    };
+    let mut best = |neighbour| {
+        let (frame, prompt) = (scene.frame(), Prompt::Click(click));
+        let clicked = clicker.click(&frame, prompt, Polarity::DarkImplant, neighbour);
+        clicked.ok().map(|clicked| clicked.answers[0])
+    };
+    let alone = best(None).map_or(f64::MAX, |answer| {
+        off_truth(&scene, &answer.refined.pose)[0]
+    });
+    assert!(alone > 10.0, "the frame is too easy: {alone} deg");
+    let answer = best(Some(&neighbour)).expect("it is there");
+    let [turn, across] = off_truth(&scene, &answer.refined.pose);
+    assert!(turn < 3.0 && across < 2.0, "{turn} deg, {across} mm");
+}
+
+/// Makes a frame darker to the right of a place, as a second leg does: by less than metal, but over a large part.
+fn shade_around(grey: &mut [u8], at: Point) {
+    let first = at.column as usize;
+    for row in grey.chunks_mut(SIDE) {
+        for value in &mut row[first..] {
+            *value = value.saturating_sub(40);
+        }
     }
 }

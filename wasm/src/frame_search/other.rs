@@ -5,18 +5,18 @@ use fluoropose::follow::Limb;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent};
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::beside;
 use wasm_bindgen::JsError;
 
+use crate::shape::Shape;
 use fluoropose_page::error::sentence;
 
 /// The other component.
 pub(super) struct Other {
     model: OwnedModel,
-    axes: Option<AnatomicalAxes>,
+    shape: Option<Shape>,
     projected: Vec<Projected>,
 }
 
@@ -37,24 +37,20 @@ impl Other {
     pub(super) fn new(
         vertices: Vec<f32>,
         triangles: Vec<u32>,
-        axes: Option<AnatomicalAxes>,
+        shape: Option<Shape>,
     ) -> Result<Self, JsError> {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         let projected = vec![Projected::default(); scratch_needed(&model.as_model())];
         Ok(Self {
             model,
-            axes,
+            shape,
             projected,
         })
     }
 
-    /// As the joint tells it beside the one that is sought.
-    pub(super) fn limb(&self, sought: Limb<'_>) -> Option<Limb<'_>> {
-        let component = match sought.component {
-            KneeComponent::Femur => KneeComponent::Tibia,
-            KneeComponent::Tibia => KneeComponent::Femur,
-        };
-        limb_of(&self.model, Some((component, self.axes?)))
+    /// As its joint knows it, where its shape tells its axes.
+    pub(super) fn limb(&self) -> Option<Limb<'_>> {
+        Some(self.shape?.limb(*self.model.as_model().mesh()))
     }
 
     /// Where it is in a frame of the camera; its edges reach some pixels beyond its silhouette.
@@ -81,17 +77,4 @@ impl Other {
             in_joint,
         })
     }
-}
-
-/// A component as its joint tells it, where its shape tells its axes.
-pub(super) fn limb_of(
-    model: &OwnedModel,
-    limb: Option<(KneeComponent, AnatomicalAxes)>,
-) -> Option<Limb<'_>> {
-    let (component, axes) = limb?;
-    Some(Limb {
-        mesh: *model.as_model().mesh(),
-        component,
-        axes,
-    })
 }

@@ -99,6 +99,24 @@ impl HandFit {
     }
 }
 
+/// Hides what a model covers at a pose, and some pixels round it.
+///
+/// # Errors
+/// The core's sentence about the pose.
+pub(super) fn hide_model(
+    model: &mut WorkingModel,
+    pose: &Pose,
+    camera: &Camera,
+    words: &mut [Word],
+) -> Result<(), JsError> {
+    let (width, height) = (camera.width(), camera.height());
+    let drawn = model.drawn_at(pose, camera)?;
+    let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
+    let mut hidden = MaskMut::onto(words, width, height).map_err(sentence)?;
+    beside::hide(&drawn, &mut hidden);
+    Ok(())
+}
+
 /// Pixels of a frame whose edges are not the implant's: the other component's.
 #[wasm_bindgen]
 pub struct HiddenPixels {
@@ -127,13 +145,8 @@ impl HiddenPixels {
     /// The core's sentence about the pose or the model.
     pub fn add(&mut self, other: &mut Matcher, pose: &[f64]) -> Result<(), JsError> {
         let pose = Pose::from(from_numbers(pose)?);
-        let (width, height) = (self.camera.width(), self.camera.height());
         let model = model_of(&mut other.model)?;
-        let drawn = model.drawn_at(&pose, &self.camera)?;
-        let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
-        let mut hidden = MaskMut::onto(&mut self.words, width, height).map_err(sentence)?;
-        beside::hide(&drawn, &mut hidden);
-        Ok(())
+        hide_model(model, &pose, &self.camera, &mut self.words)
     }
 
     /// Hides what lies along those sides of an outline that are marked unknown: what hides the implant there has edges of its own.

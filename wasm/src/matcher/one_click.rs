@@ -4,9 +4,11 @@ use fluoropose::camera::Camera;
 use fluoropose::film::{FilmModel, LineMemory};
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::finder::{Component, Verdict};
+use fluoropose::follow::{InJoint, JointPlaces};
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
+use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
@@ -16,13 +18,14 @@ use fluoropose_tracing::one_click::{
 use wasm_bindgen::prelude::*;
 
 use super::answer::{OneClickAnswer, told};
-use super::from_here::model_of;
+use super::from_here::{hide_model, model_of};
 use super::on_frame::{OnFrame, Seen, misfit, outline_of};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::Match;
 use crate::hidden::{hide, with_mask};
+use crate::shape::Shape;
 use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -46,6 +49,15 @@ fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
     }
 }
 
+/// The joint's other component in this frame.
+struct Beside {
+    joint: InJoint,
+    /// The component that is clicked, as its shape tells it.
+    clicked: Shape,
+    /// Pixels that are the other one's.
+    hidden: Vec<Word>,
+}
+
 /// The work from a click or a box on a film to outlines and poses.
 #[wasm_bindgen]
 pub struct OneClick {
@@ -54,6 +66,8 @@ pub struct OneClick {
     polarity: Polarity,
     prompt: Prompt,
     excluded: Option<Vec<Word>>,
+    /// What the joint's other component tells, where that is known.
+    beside: Option<Beside>,
     work: Option<Work>,
     /// A pose that was found before, refined, and its mirror images.
     given: Vec<OnFrame>,
@@ -94,6 +108,7 @@ impl OneClick {
             },
             prompt,
             excluded: None,
+            beside: None,
             work: None,
             given: Vec::new(),
             buffers: OneClickBuffers::default(),
@@ -111,6 +126,42 @@ impl OneClick {
         let fresh = || vec![0; words_needed(self.camera.width(), self.camera.height())];
         let all = self.excluded.get_or_insert_with(fresh);
         hide(outline, &self.camera, all)
+    }
+
+    /// Says where the joint's other component is in this frame (six numbers of its pose), so that the one that is clicked is looked for
+    /// where its joint leaves it too. `axes` are both components' (nine numbers each, as `axes_from` takes them), this one's first, and so
+    /// is whether their shape tells the front. Without the other one's model it tells nothing.
+    ///
+    /// # Errors
+    /// A sentence about the numbers, and the core's where the other one cannot be drawn.
+    #[wasm_bindgen(js_name = knowOther)]
+    pub fn know_other(
+        &mut self,
+        other: &mut Matcher,
+        pose: &[f64],
+        femoral: bool,
+        axes: &[f64],
+        fronts: &[u8],
+    ) -> Result<(), JsError> {
+        let Some(model) = &mut other.model else {
+            return Ok(());
+        };
+        let pose = Pose::from(from_numbers(pose)?);
+        let (own, others) = axes.split_at(axes.len() / 2);
+        let front = |k: usize| fronts.get(k).is_some_and(|&told| told != 0);
+        let (clicked, known) = match femoral {
+            true => (KneeComponent::Femur, KneeComponent::Tibia),
+            false => (KneeComponent::Tibia, KneeComponent::Femur),
+        };
+        let known = Shape::of(known, others, front(1))?;
+        let mut hidden = vec![0; words_needed(self.camera.width(), self.camera.height())];
+        hide_model(model, &pose, &self.camera, &mut hidden)?;
+        self.beside = Some(Beside {
+            joint: InJoint::beside(&known.limb(*model.model().mesh()), &pose),
+            clicked: Shape::of(clicked, own, front(0))?,
+            hidden,
+        });
+        Ok(())
     }
 
     /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then where it puts the edges. Around one
@@ -160,24 +211,34 @@ impl OneClick {
         matcher.with_component(&self.camera, |component, workspace, refine| {
             let mut work = match self.work.take() {
                 Some(work) => work,
-                None => begun(self.prompt, &self.camera, self.untold, component)?,
+                None => {
+                    let work = begun(self.prompt, &self.camera, self.untold, component)?;
+                    match &self.beside {
+                        Some(beside) => in_joint(work, beside, &self.film, component)?,
+                        None => work,
+                    }
+                }
             };
             let mut memory = self
                 .buffers
                 .borrow(&work.needs(&self.camera), workspace, refine);
             let (camera, polarity) = (&self.camera, self.polarity);
+            let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
             let more = self.film.look(|frame| {
-                let observation = Observation {
-                    frame,
-                    camera,
-                    polarity,
-                    // Without what the other component covers a silhouette over which that lies would have a gap. Its edges are left out
-                    // where the film is known.
-                    excluded: None,
-                    film: self.known,
-                };
-                work.step(&observation, Some(component), &mut memory)
-                    .map_err(sentence)
+                with_mask(hidden, camera, |beside| {
+                    let observation = Observation {
+                        frame,
+                        camera,
+                        polarity,
+                        // Without what the other component covers a silhouette over which that lies would have a gap. Its edges are left
+                        // out where the film is known.
+                        excluded: None,
+                        beside,
+                        film: self.known,
+                    };
+                    work.step(&observation, Some(component), &mut memory)
+                        .map_err(sentence)
+                })
             });
             self.work = Some(work);
             more
@@ -325,6 +386,7 @@ impl OneClick {
                     camera,
                     polarity,
                     excluded,
+                    beside: None,
                     film: None,
                 };
                 with(&mut work, &observation, &mut memory)
@@ -348,6 +410,18 @@ fn begun(
         Some(untold) if (untold - distance).abs() < 1.0 => work.or_farther(camera, component),
         _ => work,
     })
+}
+
+/// The same work, with what the joint tells.
+fn in_joint(
+    work: Work,
+    beside: &Beside,
+    film: &FrameImage,
+    component: &Component<'_>,
+) -> Result<Work, JsError> {
+    let clicked = beside.clicked.limb(*component.model.mesh());
+    let places = film.look(|frame| Ok(JointPlaces::new(frame, &beside.joint, &clicked)))?;
+    Ok(work.in_joint(places))
 }
 
 impl Matcher {

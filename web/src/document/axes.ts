@@ -1,4 +1,4 @@
-import { type Directions, directionsFrom, facingTheOtherWay, isFrame, tiltAlike } from '../geometry/axes';
+import { type Directions, directionsFrom, facingTheOtherWay, isFrame, type SignedDirections, tiltAlike } from '../geometry/axes';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Command } from './command';
@@ -41,6 +41,13 @@ export function knownAxes(component: Component): Directions | null {
 export function tiltAxes(component: Component): Directions | null {
   if (isAssumed(component)) return OWN_AXES;
   return component.axes && component.axes.told !== 'nothing' ? component.axes.directions : null;
+}
+
+/** What a joint asks for: axes with their signs, at least but for front and back. Null where those are not known. */
+export function signedAxes(component: Component): SignedDirections | null {
+  const { told, directions } = component.axes ?? {};
+  const isSigned = told === 'all' || told === 'not the front';
+  return directions && isSigned ? { directions, front: told === 'all' } : null;
 }
 
 /** Without a model there is no shape to ask: poses are taken in the field's axes, as the laboratory does, and that is said. */

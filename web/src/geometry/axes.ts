@@ -7,6 +7,12 @@ import type { PoseNumbers } from './pose_numbers';
 export type Directions = readonly [anterior: Vector, superior: Vector, right: Vector];
 
 /** One of the file's axes, or its opposite. */
+/** Directions with their signs, and whether front and back are told apart. */
+export interface SignedDirections {
+  readonly directions: Directions;
+  readonly front: boolean;
+}
+
 export const AXIS_WORDS = ['x', '-x', 'y', '-y', 'z', '-z'] as const;
 export type AxisWord = (typeof AXIS_WORDS)[number];
 

@@ -1,10 +1,11 @@
-import { tiltAxes } from '../document/axes';
+import { signedAxes, tiltAxes } from '../document/axes';
 import { indexOfFrame } from '../document/frame_index';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { otherThan, type ComponentName } from '../terms/component';
 import type { Counterpart, Surroundings } from '../workers/protocol/match';
+import type { OtherInFrame } from '../workers/protocol/one_click';
 
 /**
  * What a choice in a frame may rest on: poses that were decided themselves, chosen by hand, set by hand, or read from a
@@ -14,6 +15,14 @@ export function surroundingsOf(doc: Doc, frameId: string, component: ComponentNa
   const index = indexOfFrame(doc, frameId);
   const neighbours = [index - 1, index + 1].map((frame) => reliablePose(doc, frame, component));
   return { counterpart: counterpartOf(doc, index, component), neighbours: neighbours.filter((pose) => pose !== null) };
+}
+
+/** Where the joint's other component is, for who asks where its joint leaves this one. */
+export function otherInFrame(doc: Doc, frameId: string, component: ComponentName): OtherInFrame | null {
+  const other = otherThan(component);
+  const pose = reliablePose(doc, indexOfFrame(doc, frameId), other);
+  const [axes, own] = [other, component].map((name) => signedAxes(doc.components[name as ComponentName]));
+  return pose && axes && own ? { pose, axes, own } : null;
 }
 
 function counterpartOf(doc: Doc, frame: number, component: ComponentName): Counterpart | null {

@@ -13,7 +13,7 @@ import type { OneClickFacts, OneClickInput } from '../workers/protocol/one_click
 import { libraryReady } from '../jobs/library_ready';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { misfitsBeside } from '../results/film';
-import { surroundingsOf } from '../results/surroundings';
+import { otherInFrame, surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
 import { flat } from './pixels';
 import { type ComponentName, otherThan } from '../terms/component';
@@ -105,15 +105,17 @@ export class OneClick {
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);
     if (!pixels) throw new Error(texts.tracing.said.noPixels(frame.name));
     if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
-    const other = cellOf(store.doc, frame.id, otherThan(component)).outline;
+    const { outline } = cellOf(store.doc, frame.id, otherThan(component));
+    const isOpen = (name: ComponentName) => store.ui.libraries[name].state === 'ready';
     return {
       component,
       camera,
       frame: pixels,
       prompt: promptNumbers(prompt),
       bright,
-      avoid: other?.closed ? flat(other.points) : null,
-      withModel: store.ui.libraries[component].state === 'ready',
+      avoid: outline?.closed ? flat(outline.points) : null,
+      withModel: isOpen(component),
+      other: isOpen(otherThan(component)) ? otherInFrame(store.doc, frame.id, component) : null,
       around: surroundingsOf(store.doc, frame.id, component),
       film: filmNumbers(store.doc, component),
       misfits: misfitsBeside(store.doc, { frameId: frame.id, component }),

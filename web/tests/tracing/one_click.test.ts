@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
+import { OWN_AXES, setAxes } from '../../src/document/axes';
 import { bare } from '../../src/document/hand_poses';
 import { addFrames, addPoint, setCalibration, setModel } from '../../src/document/commands';
 import { currentRefusal, Store } from '../../src/document/store';
-import { cellOf } from '../../src/document/types';
+import { type Axes, cellOf } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { OneClick } from '../../src/tracing/one_click';
 import type { OneClickFacts, OneClickInput } from '../../src/workers/protocol/one_click';
@@ -73,6 +74,37 @@ describe('one click', () => {
     expect([...(asked[1]?.input.prompt ?? [])]).toEqual([2, 1]);
     await asked[1]!.answer();
     expect(store.ui.jobs).toEqual([]);
+  });
+
+  it('into a tray beside a femur whose pose is reliable is told of that, and of the axes of both', async () => {
+    const { store, asked, click, tell } = bench();
+    const own: Axes = { directions: OWN_AXES, from: 'shape', told: 'not the front' };
+    for (const name of ['femur', 'tibia'] as const) {
+      store.perform(setModel(name, { name: 'm', sha256: name }));
+      store.perform(setAxes(name, name === 'tibia' ? own : { ...own, told: 'all' }));
+      store.setLibrary(name, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: 1 });
+    }
+    const pose = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+    const candidates = [{ ...bare(pose), residual: 0.4 }];
+    tell({ match: { candidates, reason: 'r', decided: true, refusal: null, verdict: { word: 'good', because: 'b' } } as never });
+    click(1);
+    await settle();
+    expect(asked[0]?.input.other).toBeNull();
+    await asked[0]!.answer();
+    store.selectComponent('tibia');
+    click(2);
+    await settle();
+    await settle();
+    expect(asked[1]?.input.other).toEqual({
+      pose,
+      axes: { directions: OWN_AXES, front: true },
+      own: { directions: OWN_AXES, front: false },
+    });
+    store.perform(setAxes('tibia', { ...own, told: 'no signs' }));
+    click(3);
+    await settle();
+    await settle();
+    expect(asked.at(-1)?.input.other).toBeNull();
   });
 
   it('can be called off while it waits, and the next one goes on', async () => {

@@ -18,7 +18,7 @@ mod views;
 pub use axes::axes_of;
 pub use beside::{Beside, covered, hidden};
 pub use build::{Built, build_library, build_views};
-pub use clicker::{Clicked, Clicker};
+pub use clicker::{Clicked, Clicker, Neighbour};
 pub use film::{FrameFound, find_poses, first_poses};
 pub use film_model::{Filmed, KnownFilm, Stated, bring_onto_frames};
 pub use finder::{EdgeOptions, Finder, Method};

@@ -39,16 +39,22 @@ impl OneClick {
                 let part = 0.5 * (pass as f64 + fraction) / passes;
                 Progress::Regions(self.done + (1.0 - self.done) * part)
             }
-            _ => poses(0.58),
+            _ => poses(0.62),
         };
+        // After the joint.
+        let least = if self.round == 0 { 0.0 } else { 0.62 };
         let left = |count: usize, of: usize| count as f64 / of as f64;
         match self.stage {
             Stage::Preprocess(pass) => done(pass, 0.0),
             Stage::Match(pass) => done(pass, 0.7 - 0.6 * left(self.regions.len(), REGIONS)),
             Stage::Score(pass) => done(pass, 1.0 - 0.3 * left(self.located.len(), LOCATED)),
-            Stage::Refine(start) => poses(0.5 + 0.08 * (self.round as f64 + left(start, STARTS))),
-            Stage::Narrow => poses(0.58),
-            Stage::Around(_) => poses(0.5 + 0.08 * self.round as f64),
+            Stage::Refine(start) => {
+                let part = 0.5 + 0.08 * (self.round as f64 + left(start, STARTS));
+                poses(part.max(least))
+            }
+            Stage::Bends | Stage::Slide => poses(0.58 + 0.04 * self.slid()),
+            Stage::InJoint(_) | Stage::Narrow => poses(0.62),
+            Stage::Around(_) => poses((0.5 + 0.08 * self.round as f64).max(least)),
             Stage::Beyond(_) => poses(0.85),
             Stage::Mirror(_) | Stage::Beside(_) => poses(0.9),
             Stage::Done => Progress::Done,
@@ -126,6 +132,21 @@ impl OneClick {
                 }
                 None => Stage::Refine(0),
             },
+            Stage::Bends => {
+                self.begin_in_joint(observation, component, memory);
+                Stage::Slide
+            }
+            Stage::Slide => match self.slide(observation, component, memory) {
+                true => Stage::Slide,
+                false => Stage::InJoint(0),
+            },
+            Stage::InJoint(at) => {
+                if self.refine_in_joint(at, observation, component, memory)? {
+                    Stage::InJoint(at + 1)
+                } else {
+                    self.after_joint()
+                }
+            }
             Stage::Beyond(at) => {
                 if self.look_beyond(at, observation, component, memory)? {
                     Stage::Beyond(at + 1)

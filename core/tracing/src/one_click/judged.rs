@@ -6,7 +6,7 @@ use super::candidates::Answer;
 use super::observation::Observation;
 use fluoropose::finder::{CANDIDATES, Candidate};
 use fluoropose::mesh::Model;
-use fluoropose::refine::{CameraView, ImageTarget, RefineError, RefineMemory, assess};
+use fluoropose::refine::{CameraView, RefineError, RefineMemory, assess};
 
 /// An answer whose score is below this fraction of the best's is no rival of it.
 const RIVAL: f64 = 0.75;
@@ -22,12 +22,7 @@ pub fn candidates(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<Candidate, CANDIDATES>, RefineError> {
     let least = answers.first().map_or(0.0, |best| RIVAL * best.score);
-    let target = ImageTarget {
-        frame: observation.frame,
-        unknown: observation.excluded,
-        polarity: observation.polarity,
-        film: observation.film,
-    };
+    let target = observation.target();
     let view = CameraView::only(observation.camera, target);
     let rivals = answers.iter().filter(|answer| answer.score >= least);
     let candidate = |answer: &Answer| {

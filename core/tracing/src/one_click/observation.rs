@@ -4,7 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
-use fluoropose::refine::Polarity;
+use fluoropose::refine::{ImageTarget, Polarity};
 
 /// A frame and what is known of it.
 #[derive(Clone, Copy)]
@@ -17,8 +17,23 @@ pub struct Observation<'a> {
     pub polarity: Polarity,
     /// Pixels that belong to something else, such as another component that is outlined already.
     pub excluded: Option<&'a Mask<'a>>,
+    /// Pixels that are known to be the joint's other component, and what its edges reach beyond it: nothing is known there of an edge. A region
+    /// goes on below it.
+    pub beside: Option<&'a Mask<'a>>,
     /// What the film makes of the component, where its constants are known.
     pub film: Option<FilmModel>,
+}
+
+impl<'a> Observation<'a> {
+    /// What poses are refined on.
+    pub(super) fn target(&self) -> ImageTarget<'a> {
+        ImageTarget {
+            frame: self.frame,
+            unknown: self.excluded,
+            polarity: self.polarity,
+            film: self.film,
+        }
+    }
 }
 
 impl core::fmt::Debug for Observation<'_> {

@@ -108,6 +108,25 @@ impl Prompt {
         }
     }
 
+    /// Whether a drawn silhouette agrees with the prompt once it is moved by at most so many pixels.
+    pub(super) fn is_within(&self, drawn: &Mask<'_>, px: f64) -> bool {
+        match *self {
+            Self::Click(at) => {
+                let away = FAR + px as usize;
+                let near = |at: f64| (at as usize).saturating_sub(away)..=at as usize + away;
+                near(at.row).any(|row| near(at.column).any(|column| drawn.get(column, row)))
+            }
+            Self::Box(low, high) => {
+                let (columns, rows) = drawn.bounds();
+                let apart = |first: usize, end: usize, a: f64, b: f64| {
+                    first as f64 - px > a.max(b) || end as f64 + px < a.min(b)
+                };
+                !(apart(columns.start, columns.end, low.column, high.column)
+                    || apart(rows.start, rows.end, low.row, high.row))
+            }
+        }
+    }
+
     /// How well a drawn silhouette agrees with the prompt, 0 to 1.
     pub(super) fn agreement(&self, drawn: &Mask<'_>) -> f64 {
         match *self {

@@ -14,7 +14,7 @@ use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::locate;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, Refined, refine};
+use fluoropose::refine::{CameraView, RefineOptions, Refined, refine};
 
 /// Number of poses that are located for a region.
 const MINIMA: usize = 3;
@@ -146,12 +146,7 @@ impl PoseScorer<'_> {
         pose: &Pose,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Option<Answer>, OneClickError> {
-        let target = ImageTarget {
-            frame: self.observation.frame,
-            unknown: self.observation.excluded,
-            polarity: self.observation.polarity,
-            film: self.observation.film,
-        };
+        let target = self.observation.target();
         let view = CameraView::only(self.observation.camera, target);
         let (model, options) = (self.component.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);

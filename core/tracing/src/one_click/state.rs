@@ -13,6 +13,7 @@ use super::statistics::CHOSEN;
 use super::window::Window;
 use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
+use fluoropose::follow::JointPlaces;
 use fluoropose::image::moments::Moments;
 
 /// The greatest number of located poses of a preprocessing pass that are drawn.
@@ -49,6 +50,12 @@ pub(super) enum Stage {
     Narrow,
     /// Rotations around the best answer are scored, one by one.
     Around(usize),
+    /// Bends of the knee are left out by what was pointed at.
+    Bends,
+    /// The outline slides over the frame where the joint leaves the component, one bend after the other.
+    Slide,
+    /// The best of those places are refined, one by one.
+    InJoint(usize),
     /// Outer rims are looked for beyond the answers, one by one.
     Beyond(usize),
     /// The mirror images of the best answer are refined, one by one.
@@ -93,6 +100,8 @@ pub struct OneClick {
     pub(super) sharpest: Option<(f64, Region)>,
     pub(super) starts: Vec<Start, STARTS>,
     pub(super) answers: Vec<Answer, ANSWERS>,
+    /// Where its joint leaves the component, where the other one is known.
+    pub(super) joint: Option<JointPlaces>,
     /// The answers beyond which outer rims are looked for.
     pub(super) inner: Vec<Answer, ANSWERS>,
 }
@@ -162,6 +171,7 @@ impl OneClick {
             sharpest: None,
             starts: Vec::new(),
             answers: Vec::new(),
+            joint: None,
             inner: Vec::new(),
         })
     }

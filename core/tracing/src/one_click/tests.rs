@@ -196,6 +196,7 @@ impl Bench {
             camera: &camera,
             polarity,
             excluded: None,
+            beside: None,
             film: None,
         };
         let component = Component {

@@ -1,6 +1,7 @@
 import { OneClick, type FrameImage, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
-import type { ComponentName } from '../../terms/component';
-import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
+import { numbersOf } from '../../geometry/axes';
+import { type ComponentName, otherThan } from '../../terms/component';
+import type { OneClickFacts, OneClickInput, OneClickProtocol, OtherInFrame } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';
 import { poseArray } from '../protocol/pose_array';
 import { imageOf } from './frame_pixels';
@@ -21,9 +22,10 @@ export function oneClick(held: Held): Handlers<OneClickProtocol> {
     oneClick: async (input, context) => {
       await held.ready;
       const matcher = input.withModel ? await held.matcherOf(input.component) : null;
+      const other = matcher && input.other ? await held.matcherOf(otherThan(input.component)) : null;
       const image = imageOf(input.frame);
       try {
-        return await search(held, input, image, matcher, context);
+        return await search(held, input, image, { matcher, other }, context);
       } finally {
         image.free();
       }
@@ -33,12 +35,19 @@ export function oneClick(held: Held): Handlers<OneClickProtocol> {
 
 type Progress = Context<OneClickProtocol['oneClick']['progress']>;
 
-async function search(held: Held, input: OneClickInput, image: FrameImage, matcher: Matcher | null, context: Progress): Promise<OneClickFacts> {
+/** Of the component, and of the joint's other one where that is known. */
+interface Matchers {
+  readonly matcher: Matcher | null;
+  readonly other: Matcher | null;
+}
+
+async function search(held: Held, input: OneClickInput, image: FrameImage, { matcher, other }: Matchers, context: Progress): Promise<OneClickFacts> {
   const startedAt = performance.now();
   const work = new OneClick(image, input.camera.text, input.prompt, input.bright ?? undefined);
   try {
     if (input.avoid) work.avoid(input.avoid);
     work.knowFilm(filmArray(input.film), usualMisfit(input.misfits));
+    if (other && input.other) knowOther(work, other, input.component, input.other);
     if (matcher && input.pose) work.takePose(matcher, Float64Array.from(poseArray(input.pose)));
     else while (matcher ? work.step(matcher) : work.stepAlone()) {
       context.report({ fraction: work.progress, doing: work.doing });
@@ -51,6 +60,12 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
   } finally {
     work.free();
   }
+}
+
+function knowOther(work: OneClick, other: Matcher, component: ComponentName, { pose, axes, own }: OtherInFrame): void {
+  const directions = Float64Array.of(...numbersOf(own.directions), ...numbersOf(axes.directions));
+  const fronts = Uint8Array.of(Number(own.front), Number(axes.front));
+  work.knowOther(other, Float64Array.from(poseArray(pose)), component === 'femur', directions, fronts);
 }
 
 function facts(held: Held, answer: OneClickAnswer, matcher: Matcher | null, milliseconds: number): Omit<OneClickFacts, 'bright'> {

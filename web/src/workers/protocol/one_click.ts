@@ -1,9 +1,17 @@
+import type { SignedDirections } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { FramePixels } from './frame_pixels';
 import type { Match, Surroundings } from './match';
 import type { CameraInput } from './camera';
 import type { FilmMisfits } from './film';
+
+/** The joint's other component in a frame, and the axes of both as the joint asks for them. */
+export interface OtherInFrame {
+  readonly pose: PoseNumbers;
+  readonly axes: SignedDirections;
+  readonly own: SignedDirections;
+}
 
 /** A first outline and pose from a click or a box. */
 export interface OneClickInput {
@@ -18,6 +26,8 @@ export interface OneClickInput {
   readonly avoid: Float64Array<ArrayBuffer> | null;
   /** Without library and model only the region and its edges lead to an outline. */
   readonly withModel: boolean;
+  /** The joint's other component: this one is looked for where its joint leaves it too. Null where it is not known. */
+  readonly other: OtherInFrame | null;
   readonly around: Surroundings;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::finder::{Candidate, Component, FindError, FinderBuffers, Goal, find};
-use fluoropose::follow::{Places, Subject};
+use fluoropose::follow::{InJoint, JointPlaces, Limb, Places, Subject};
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
@@ -32,6 +32,16 @@ pub struct Clicked {
     pub took: Duration,
     /// Wall time of the longest step.
     pub longest: Duration,
+}
+
+/// The joint's other component in a frame into which somebody clicks.
+pub struct Neighbour<'n> {
+    /// Where its joint leaves the component that is clicked.
+    pub joint: &'n InJoint,
+    /// The component that is clicked, as its shape tells it.
+    pub clicked: &'n Limb<'n>,
+    /// What the other one covers, and its edges.
+    pub covered: Mask<'n>,
 }
 
 /// A component and the camera that saw it, ready for prompts.
@@ -75,7 +85,7 @@ impl<'l> Clicker<'l> {
         &self.planes
     }
 
-    /// Outlines and poses for a prompt on a frame.
+    /// Outlines and poses for a prompt on a frame, in which the joint's other component may be known.
     ///
     /// # Errors
     /// Those of [`OneClick::new`] and [`OneClick::step`].
@@ -84,6 +94,7 @@ impl<'l> Clicker<'l> {
         frame: &dyn Grey,
         prompt: Prompt,
         polarity: Polarity,
+        neighbour: Option<&Neighbour<'_>>,
     ) -> Result<Clicked, OneClickError> {
         let begin = Instant::now();
         let observation = Observation {
@@ -91,6 +102,7 @@ impl<'l> Clicker<'l> {
             camera: &self.camera,
             polarity,
             excluded: None,
+            beside: neighbour.map(|other| &other.covered),
             film: None,
         };
         let component = Component {
@@ -101,6 +113,9 @@ impl<'l> Clicker<'l> {
         let mut work = OneClick::new(prompt, &self.camera, Some(&component))?;
         if self.farther {
             work = work.or_farther(&self.camera, &component);
+        }
+        if let Some(Neighbour { joint, clicked, .. }) = neighbour {
+            work = work.in_joint(JointPlaces::new(frame, joint, clicked));
         }
         let kernels = fluoropose_kernels::fastest();
         let finder = self.finder.borrow(&component, &self.camera, kernels);

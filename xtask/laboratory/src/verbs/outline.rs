@@ -242,7 +242,13 @@ impl Trial<'_> {
         let grey = grey(&decoded)?;
         let stated = self.args.shown.stated();
         let polarity = stated.unwrap_or_else(|| prompt.polarity(&*grey));
-        let clicked = match self.clicker.click(&*grey, prompt, polarity) {
+        let camera = &self.source.camera;
+        let beside = self.known.beside(frame, camera)?;
+        let neighbour = beside.as_ref().map(known::BesideFemur::neighbour);
+        let clicked = match self
+            .clicker
+            .click(&*grey, prompt, polarity, neighbour.as_ref())
+        {
             Ok(clicked) => clicked,
             Err(error) => {
                 eprintln!("frame {frame}, {}: {error}", kind.word());

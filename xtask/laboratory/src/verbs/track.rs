@@ -8,7 +8,6 @@ mod journal;
 mod metal;
 mod mirrored;
 mod part;
-mod partner;
 mod record;
 mod request;
 mod run;

@@ -1,21 +1,23 @@
 //! What is known of the other component, and the choice with it.
 
 use anyhow::{Context, Result, bail};
+use fluoropose::camera::Camera;
 use fluoropose::finder::choice::{ChoiceContext, Counterpart, choose};
 use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
-use fluoropose::mesh::anatomy::field_axes;
+use fluoropose::follow::{InJoint, Limb};
+use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::anatomy::{AnatomicalAxes, field_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 
-use crate::files::{Component, Role, Study, read_model, read_poses};
-use crate::finding::axes_of;
+use crate::files::{Component, MaskBuffer, Role, Study, read_model, read_poses};
+use crate::finding::{Neighbour, axes_of, covered};
 
-/// The femoral poses of each frame, in the field's axes, where they are known.
+/// The femoral poses of each frame, where they are known, and both components as their shapes tell them.
 #[derive(Default)]
 pub(super) struct Known {
     femurs: Vec<Option<Pose>>,
-    /// From the field's axes to the tibial model's.
-    axes: Option<Pose>,
+    shapes: Option<[Shape; 2]>,
 }
 
 impl Known {
@@ -32,12 +34,36 @@ impl Known {
         let femur = femur.context("the study has no femoral component")?;
         let reference = femur.reference.as_ref();
         let poses = read_poses(reference.context("the femur has no reference poses")?)?;
-        let axes = axes(femur)?.context("the femur's shape tells no axes")?;
-        let in_field = |pose: Option<Pose>| pose.map(|pose| pose.compose(&axes));
+        let shapes = [Shape::of(femur)?, Shape::of(tibia)?];
+        if shapes[0].axes.is_none() {
+            bail!("the femur's shape tells no axes");
+        }
         Ok(Self {
-            femurs: poses.into_iter().map(in_field).collect(),
-            axes: self::axes(tibia)?,
+            femurs: poses,
+            shapes: Some(shapes),
         })
+    }
+
+    /// What the femur of a frame says of a tray there.
+    ///
+    /// # Errors
+    /// For a pose that cannot be drawn.
+    pub(super) fn beside(&self, frame: usize, camera: &Camera) -> Result<Option<BesideFemur<'_>>> {
+        let (Some([femur, tibia]), Some(pose)) = (&self.shapes, self.femur(frame)) else {
+            return Ok(None);
+        };
+        let (Some(femurs), Some(clicked)) = (femur.limb(), tibia.limb()) else {
+            return Ok(None);
+        };
+        Ok(Some(BesideFemur {
+            joint: InJoint::beside(&femurs, &pose),
+            clicked,
+            covered: covered(&femur.model.as_model(), camera, &pose)?,
+        }))
+    }
+
+    fn femur(&self, frame: usize) -> Option<Pose> {
+        self.femurs.get(frame).copied().flatten()
     }
 
     /// The pose that the finder chooses, and how far it is to be trusted.
@@ -46,17 +72,17 @@ impl Known {
         candidates: &[Candidate],
         frame: usize,
     ) -> Option<(Candidate, Verdict)> {
-        let femur = self.femurs.get(frame).copied().flatten();
+        let axes = self
+            .shapes
+            .as_ref()
+            .map(|shapes| shapes.each_ref().map(|shape| shape.axes));
+        let femur = self.femur(frame);
         let mut rivals = contenders(candidates);
-        let context = ChoiceContext {
-            counterpart: femur
-                .filter(|_| self.axes.is_some())
-                .map(Counterpart::Femur),
-            ..ChoiceContext::default()
-        };
-        if let Some(axes) = &self.axes {
+        let mut context = ChoiceContext::default();
+        if let Some([Some(femurs), Some(own)]) = axes {
+            context.counterpart = femur.map(|pose| Counterpart::Femur(pose.compose(&femurs)));
             for rival in &mut rivals {
-                rival.pose = rival.pose.compose(axes);
+                rival.pose = rival.pose.compose(&own);
             }
         }
         let choice = choose(&rivals, &context)?;
@@ -65,17 +91,59 @@ impl Known {
     }
 }
 
-/// The rotation from the field's axes to a component's, as the study states it or the shape tells it.
-fn axes(component: &Component) -> Result<Option<Pose>> {
-    let Some(role) = component.role() else {
-        return Ok(None);
-    };
-    let owned = read_model(&component.model)?;
-    let model = owned.as_model();
-    let told = axes_of(&model, role, component.axes.as_deref())?;
-    let unsigned = || {
-        let planes = symmetry_planes(model.mesh());
-        field_axes(model.mesh(), &planes, role.component())
-    };
-    Ok(told.map(|axes| axes.model_from_field).or_else(unsigned))
+/// What the femur of a frame says of the tray there.
+pub(super) struct BesideFemur<'k> {
+    joint: InJoint,
+    clicked: Limb<'k>,
+    covered: MaskBuffer,
+}
+
+impl BesideFemur<'_> {
+    /// As a click is told it.
+    pub(super) fn neighbour(&self) -> Neighbour<'_> {
+        Neighbour {
+            joint: &self.joint,
+            clicked: &self.clicked,
+            covered: self.covered.mask(),
+        }
+    }
+}
+
+/// A component, and what its shape tells.
+struct Shape {
+    model: OwnedModel,
+    /// The rotation from the field's axes to the model's, as the study states it or the shape tells it.
+    axes: Option<Pose>,
+    /// The same with their signs, where those are told too.
+    told: Option<AnatomicalAxes>,
+    role: Role,
+}
+
+impl Shape {
+    fn of(component: &Component) -> Result<Self> {
+        let role = component
+            .role()
+            .context("the component is no part of a knee")?;
+        let owned = read_model(&component.model)?;
+        let model = owned.as_model();
+        let told = axes_of(&model, role, component.axes.as_deref())?;
+        let unsigned = || {
+            let planes = symmetry_planes(model.mesh());
+            field_axes(model.mesh(), &planes, role.component())
+        };
+        Ok(Self {
+            axes: told.map(|axes| axes.model_from_field).or_else(unsigned),
+            told,
+            role,
+            model: owned,
+        })
+    }
+
+    fn limb(&self) -> Option<Limb<'_>> {
+        Some(Limb {
+            mesh: *self.model.as_model().mesh(),
+            component: self.role.component(),
+            axes: self.told?,
+        })
+    }
 }

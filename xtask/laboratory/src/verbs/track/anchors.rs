@@ -10,7 +10,7 @@ use super::follow::{follow, mark};
 use super::part::Part;
 use super::request::{Click, Told};
 use super::run::Run;
-use super::search::{clicked, searched};
+use super::search::{Beside, clicked, searched};
 use super::table::TABLE;
 
 /// The frames whose pose a person fixed.
@@ -28,8 +28,13 @@ pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Vec<(usize, Pose)> 
     fixed_poses
 }
 
-/// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
-pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+/// The frames that a person gave: fixed poses, and what clicks lead to, each with what is known of other components in its frame. In the
+/// order of frames.
+pub(super) fn given(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    others: &[(&Part<'_>, &[Anchor])],
+) -> Result<Vec<Anchor>> {
     let mut anchors = Vec::new();
     for (frame, pose) in fixed_poses(run, part) {
         anchors.push(of_person(run, part, frame, &pose)?);
@@ -46,13 +51,27 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
         {
             continue;
         }
-        match clicked(run, part, click.frame, click.place)? {
+        let beside = beside(others, click.frame);
+        match clicked(run, part, click.frame, click.place, beside)? {
             Some(found) => anchors.push(Anchor::found(click.frame, found)),
             None => tell_vain(run, click)?,
         }
     }
     anchors.sort_by_key(|anchor| anchor.frame);
     Ok(anchors)
+}
+
+/// A component that is known in a frame.
+fn beside<'b, 's>(others: &[(&'b Part<'s>, &'b [Anchor])], frame: usize) -> Option<Beside<'b, 's>> {
+    let mut known = others
+        .iter()
+        .flat_map(|&(part, own)| own.iter().map(move |from| (part, from)));
+    let (part, from) = known.find(|(_, from)| from.frame == frame)?;
+    Some(Beside {
+        part,
+        from,
+        pose: from.found.pose,
+    })
 }
 
 /// Tells of a click that leads to no pose. Results that are there already are better than what is found without it.

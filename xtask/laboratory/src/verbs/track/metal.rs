@@ -10,7 +10,6 @@ use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 use super::anchors::{fixed_poses, given};
 use super::follow::ends_beside;
 use super::part::Part;
-use super::partner::or_in_joint;
 use super::run::Run;
 use super::search::{Beside, in_joint, searched};
 use crate::files::{Role, grey};
@@ -70,14 +69,20 @@ struct Way<'s> {
 impl<'s> Way<'s> {
     /// With what a person gave.
     fn begin(run: &Run<'_>, parts: Vec<Part<'s>>) -> Result<Self> {
-        let anchors = parts.iter().map(|part| given(run, part));
-        let mut anchors = anchors.collect::<Result<Vec<_>>>()?;
-        let clicked = anchors.clone();
-        let each = parts.iter().zip(&clicked);
-        let others: Vec<_> = each.map(|(part, own)| (part, own.as_slice())).collect();
-        let trays = parts.iter().zip(&mut anchors);
-        for (part, anchors) in trays.filter(|(part, _)| part.role() == Some(Role::Tibia)) {
-            *anchors = or_in_joint(run, part, anchors, &others)?;
+        let (trays, others): (Vec<_>, Vec<_>) = parts
+            .iter()
+            .partition(|part| part.role() == Some(Role::Tibia));
+        let mut anchors = vec![Vec::new(); parts.len()];
+        for part in others.iter().copied() {
+            anchors[part.number] = given(run, part, &[])?;
+        }
+        // A tray stands out less than its femur, which tells where it is.
+        for part in trays {
+            let known: Vec<_> = others
+                .iter()
+                .map(|other| (*other, &*anchors[other.number]))
+                .collect();
+            anchors[part.number] = given(run, part, &known)?;
         }
         Ok(Self {
             parts,

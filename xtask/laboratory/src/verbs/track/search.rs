@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, FramePose, From, InJoint, JointSearch, Places, refined_on_frame};
+use fluoropose::follow::{
+    Anchor, FramePose, From, InJoint, JointSearch, Limb, Places, refined_on_frame,
+};
 use fluoropose::image::contour::Point;
 use fluoropose::pose::Pose;
 use fluoropose_tracing::one_click::{Answer, Prompt};
@@ -12,35 +14,39 @@ use super::follow::mark;
 use super::part::Part;
 use super::run::Run;
 use crate::files::{MaskBuffer, grey};
-use crate::finding::Clicker;
+use crate::finding::{Clicker, Neighbour};
 
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
 /// So often a search says how far it is.
 const TELLS: Duration = Duration::from_millis(250);
 
-/// The pose that a click leads to; `None` where it leads nowhere.
+/// The pose that a click leads to, perhaps beside another component that is known there; `None` where it leads nowhere.
 pub(super) fn clicked(
     run: &Run<'_>,
     part: &Part<'_>,
     frame: usize,
     place: [f64; 2],
+    beside: Option<Beside<'_, '_>>,
 ) -> Result<Option<FramePose>> {
     let [column, row] = place.map(f64::to_bits);
-    let key = format!(
-        "click/{}/{}/{frame}/{column:x}/{row:x}",
-        part.number,
-        part.phase()
-    );
+    let (number, phase) = (part.number, part.phase());
+    let known = beside.as_ref().map_or(String::new(), Beside::key);
+    let key = format!("click/{number}/{phase}/{frame}/{column:x}/{row:x}{known}");
     run.step((part, frame), "clicked into", &key, || {
         let at = Point::new(place[0], place[1]);
+        let knee = match beside {
+            Some(beside) => Knee::of(part, &beside)?,
+            None => None,
+        };
+        let knee = knee.as_ref();
         let mut found: Option<FramePose> = None;
         let distances = part.distances();
         for (number, &distance) in distances.iter().enumerate() {
             let bytes = part.library(number, distance)?;
             let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
-            let answers = answers(run, part, &mut clicker, frame, at)?;
-            let one = best(run, part, frame, &answers)?;
+            let answers = answers(run, part, &mut clicker, frame, at, knee)?;
+            let one = best(run, part, frame, &answers, knee)?;
             let better = |one: &FramePose| found.is_none_or(|found| one.score() > found.score());
             found = one.filter(better).or(found);
         }
@@ -48,8 +54,8 @@ pub(super) fn clicked(
         if let (None, [farthest, _, ..]) = (&found, distances.as_slice()) {
             let bytes = part.library(0, *farthest)?;
             let mut clicker = Clicker::open(bytes, part.model(), part.camera)?.or_farther();
-            let answers = answers(run, part, &mut clicker, frame, at)?;
-            found = best(run, part, frame, &answers)?;
+            let answers = answers(run, part, &mut clicker, frame, at, knee)?;
+            found = best(run, part, frame, &answers, knee)?;
         }
         Ok(found)
     })
@@ -63,6 +69,42 @@ pub(super) struct Beside<'b, 's> {
     pub(super) pose: Pose,
 }
 
+impl Beside<'_, '_> {
+    /// What a step that goes by it is called after.
+    fn key(&self) -> String {
+        format!("/beside-{}-{}", self.part.number, mark(self.from))
+    }
+}
+
+/// What a component beside another one is told of that.
+struct Knee<'k> {
+    joint: InJoint,
+    clicked: &'k Limb<'k>,
+    covered: MaskBuffer,
+}
+
+impl<'k> Knee<'k> {
+    /// `None` where the shape of either does not tell which way it lies.
+    fn of(part: &'k Part<'_>, beside: &Beside<'_, '_>) -> Result<Option<Self>> {
+        let (Some(clicked), Some(other)) = (&part.limb, &beside.part.limb) else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            joint: InJoint::beside(other, &beside.pose),
+            clicked,
+            covered: beside.part.silhouette(&beside.pose)?,
+        }))
+    }
+
+    fn neighbour(&self) -> Neighbour<'_> {
+        Neighbour {
+            joint: &self.joint,
+            clicked: self.clicked,
+            covered: self.covered.mask(),
+        }
+    }
+}
+
 /// The pose of a component in a frame that nobody clicked into, perhaps beside another that is known; `None` where none is good.
 /// `depth` is about how far away it is, mm, where that is known of other frames or of the other component; `places` are those of the frame
 /// that are tried.
@@ -73,9 +115,7 @@ pub(super) fn searched(
     (depth, places): (Option<f64>, Places),
     beside: Option<Beside<'_, '_>>,
 ) -> Result<Option<FramePose>> {
-    let known = beside.map_or(String::new(), |beside| {
-        format!("/beside-{}-{}", beside.part.number, mark(beside.from))
-    });
+    let known = beside.as_ref().map_or(String::new(), Beside::key);
     let (number, phase) = (part.number, part.phase());
     let at = match places {
         Places::Shaped => "/shaped",
@@ -119,30 +159,23 @@ pub(super) fn in_joint(
     frame: usize,
     beside: Beside<'_, '_>,
 ) -> Result<Option<FramePose>> {
-    let (Some(own), Some(other)) = (&part.limb, &beside.part.limb) else {
-        return Ok(None);
-    };
     let known = format!("{}-{}", beside.part.number, mark(beside.from));
     let (number, phase) = (part.number, part.phase());
     let key = format!("joint/{number}/{phase}/{frame}/{known}");
     let what = format!("looked for beside the {}", beside.part.name());
     run.step((part, frame), &what, &key, || {
-        let unknown = beside.part.silhouette(&beside.pose)?;
-        let unknown = Some(unknown.mask());
-        let joint = InJoint::beside(other, &beside.pose);
+        let Some(knee) = Knee::of(part, &beside)? else {
+            return Ok(None);
+        };
+        let unknown = knee.covered.mask();
         let stop = &run.request.stop;
-        part.see_beside(
-            run.film,
-            frame,
-            unknown.as_ref(),
-            |subject, image, memory| {
-                let mut search = JointSearch::new(image, &joint, own);
-                while search.step(subject, image, memory) {
-                    stop.check()?;
-                }
-                Ok(search.found().copied())
-            },
-        )?
+        part.see_beside(run.film, frame, Some(&unknown), |subject, image, memory| {
+            let mut search = JointSearch::new(image, &knee.joint, knee.clicked);
+            while search.step(subject, image, memory) {
+                stop.check()?;
+            }
+            Ok(search.found().copied())
+        })?
     })
 }
 
@@ -168,11 +201,13 @@ fn answers(
     clicker: &mut Clicker<'_>,
     frame: usize,
     at: Point,
+    knee: Option<&Knee<'_>>,
 ) -> Result<Vec<Answer>> {
     let decoded = run.film.frame(frame)?;
     let grey = grey(&decoded)?;
     let prompt = Prompt::Click(at);
-    let clicked = clicker.click(&*grey, prompt, part.polarity);
+    let neighbour = knee.map(Knee::neighbour);
+    let clicked = clicker.click(&*grey, prompt, part.polarity, neighbour.as_ref());
     // A click that leads nowhere has no answers.
     Ok(clicked.map_or(Vec::new(), |clicked| clicked.answers))
 }
@@ -182,18 +217,25 @@ fn best(
     part: &Part<'_>,
     frame: usize,
     answers: &[Answer],
+    knee: Option<&Knee<'_>>,
 ) -> Result<Option<FramePose>> {
-    part.see(run.film, frame, |subject, image, memory| {
-        let mut best: Option<FramePose> = None;
-        for answer in answers.iter().take(ANSWERS) {
-            let start = (&answer.refined.pose, From::Far);
-            let Ok(found) = refined_on_frame(subject, image, start, memory) else {
-                continue;
-            };
-            if best.is_none_or(|best| found.score() > best.score()) {
-                best = Some(found);
+    let unknown = knee.map(|knee| knee.covered.mask());
+    part.see_beside(
+        run.film,
+        frame,
+        unknown.as_ref(),
+        |subject, image, memory| {
+            let mut best: Option<FramePose> = None;
+            for answer in answers.iter().take(ANSWERS) {
+                let start = (&answer.refined.pose, From::Far);
+                let Ok(found) = refined_on_frame(subject, image, start, memory) else {
+                    continue;
+                };
+                if best.is_none_or(|best| found.score() > best.score()) {
+                    best = Some(found);
+                }
             }
-        }
-        best
-    })
+            best
+        },
+    )
 }

@@ -4,13 +4,19 @@ use std::time::Instant;
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::finder::Candidate;
+use fluoropose::finder::choice::ChoiceContext;
+use fluoropose::finder::{Candidate, Verdict};
+use fluoropose::follow::{InJoint, Limb};
 use fluoropose::image::frame::Frame;
 use fluoropose::mesh::Model;
+use fluoropose::mesh::anatomy::{KneeComponent, anatomical_axes};
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, assess};
 
 use super::draw::Film;
-use crate::finding::{Clicker, Refiner, threshold_outline, wire_outline};
+use super::outcome::chosen;
+use crate::finding::{Clicker, Neighbour, Refiner, covered, threshold_outline, wire_outline};
 use fluoropose_tracing::one_click::Prompt;
 
 /// How a pose was come by.
@@ -60,6 +66,8 @@ pub(super) struct Attempt {
 /// Everything that finds the poses of one film's components; a copy for each core.
 pub(super) struct Bench<'b> {
     models: [Model<'b>; 2],
+    /// As their shapes tell them.
+    limbs: [Option<Limb<'b>>; 2],
     /// Where there are libraries.
     clickers: Option<[Clicker<'b>; 2]>,
     refiners: [Refiner<'b>; 2],
@@ -83,6 +91,10 @@ impl<'b> Bench<'b> {
         Ok(Self {
             clickers: clickers.transpose()?,
             refiners: models.map(|model| Refiner::new(model, RefineOptions::default())),
+            limbs: [
+                limb(&models[0], KneeComponent::Femur),
+                limb(&models[1], KneeComponent::Tibia),
+            ],
             models,
             camera,
         })
@@ -94,28 +106,52 @@ impl<'b> Bench<'b> {
     /// For a film of another size.
     pub(super) fn attempt(&mut self, film: &Film, way: FilmWay) -> Result<[Attempt; 2]> {
         let frame = film.frame(&self.camera)?;
-        Ok([0, 1].map(|part| {
+        let mut femur = None;
+        let mut attempt = |part: usize| -> Result<Attempt> {
             let begin = Instant::now();
             let candidates = match way {
-                FilmWay::Click => self.clicked(&frame, film, part),
+                FilmWay::Click => self.clicked(&frame, film, part, femur)?,
                 FilmWay::Threshold | FilmWay::Wire => self.traced(&frame, film, part, way),
                 FilmWay::Image | FilmWay::Alone => self.refined(&frame, film, part),
             };
-            Attempt {
+            femur = chosen(&candidates, &ChoiceContext::default())
+                .filter(|(_, verdict)| !matches!(verdict, Verdict::NoFit(_)))
+                .map(|(candidate, _)| candidate.pose);
+            Ok(Attempt {
                 candidates,
                 ms: begin.elapsed().as_secs_f64() * 1e3,
-            }
-        }))
+            })
+        };
+        Ok([attempt(0)?, attempt(1)?])
     }
 
-    fn clicked(&mut self, frame: &Frame<'_, u8>, film: &Film, part: usize) -> Vec<Candidate> {
-        let clicked = self.clickers.as_mut().and_then(|clickers| {
-            let click = film.clicks[part];
-            clickers[part]
-                .click(frame, click, Polarity::DarkImplant)
-                .ok()
+    /// From a click into a component, a tray's beside the pose of its `femur`.
+    fn clicked(
+        &mut self,
+        frame: &Frame<'_, u8>,
+        film: &Film,
+        part: usize,
+        femur: Option<Pose>,
+    ) -> Result<Vec<Candidate>> {
+        let beside = match (femur, &self.limbs) {
+            (Some(femur), [Some(known), Some(clicked)]) if part == 1 => Some((
+                InJoint::beside(known, &femur),
+                clicked,
+                covered(&self.models[0], &self.camera, &femur)?,
+            )),
+            _ => None,
+        };
+        let neighbour = beside.as_ref().map(|(joint, clicked, covered)| Neighbour {
+            joint,
+            clicked,
+            covered: covered.mask(),
         });
-        clicked.map_or_else(Vec::new, |clicked| clicked.candidates)
+        let clicked = self.clickers.as_mut().and_then(|clickers| {
+            let (click, dark) = (film.clicks[part], Polarity::DarkImplant);
+            let clicker = &mut clickers[part];
+            clicker.click(frame, click, dark, neighbour.as_ref()).ok()
+        });
+        Ok(clicked.map_or_else(Vec::new, |clicked| clicked.candidates))
     }
 
     /// From the outline of a tool; none where the tool gives none or nothing explains it.
@@ -159,6 +195,16 @@ impl<'b> Bench<'b> {
         });
         candidate.into_iter().collect()
     }
+}
+
+fn limb<'m>(model: &Model<'m>, component: KneeComponent) -> Option<Limb<'m>> {
+    let mesh = *model.mesh();
+    let axes = anatomical_axes(&mesh, &symmetry_planes(&mesh), component)?;
+    Some(Limb {
+        mesh,
+        component,
+        axes,
+    })
 }
 
 /// A film of which nothing is known.
