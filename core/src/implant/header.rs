@@ -1,7 +1,8 @@
 //! The header of an implant file.
 
 use super::error::ImplantError;
-use super::wire::{CRC, HEADER_BYTES, HEADER_CRC_AT, MAGIC, SIZES, VERSION};
+use super::wire::{HEADER_BYTES, HEADER_CRC_AT, MAGIC, SIZES, VERSION};
+use crate::checksum::checksum;
 use crate::math::Vector3;
 use crate::mesh::Bounds;
 use crate::mesh::symmetry::{PLANES, SymmetryPlane};
@@ -65,7 +66,7 @@ impl Header {
         if version != VERSION {
             return Err(ImplantError::Version(version));
         }
-        if CRC.checksum(checked) != Reader(rest).u32() {
+        if checksum([checked]) != Reader(rest).u32() {
             return Err(ImplantError::Checksum("header"));
         }
         let length = u16::from_le_bytes(reader.bytes());
@@ -139,7 +140,7 @@ impl Header {
             writer.put(&number.to_le_bytes());
         }
         let (checked, crc) = bytes.split_at_mut(HEADER_CRC_AT);
-        crc.copy_from_slice(&CRC.checksum(checked).to_le_bytes());
+        crc.copy_from_slice(&checksum([checked]).to_le_bytes());
         bytes
     }
 }

@@ -2,8 +2,6 @@
 //!
 //! The header has a CRC-32 (ISO-HDLC) of the body and, in its last four bytes, one of itself up to there.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
-
 /// First eight bytes of the file.
 pub(super) const MAGIC: [u8; 8] = *b"FLUOROIM";
 /// Version of the layout.
@@ -12,8 +10,6 @@ pub const VERSION: u16 = 0;
 pub const HEADER_BYTES: usize = 320;
 /// Where the header's own checksum stands.
 pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
-
-pub(super) const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Where the header says how many there are of each part.
 pub(super) const COUNTS_AT: usize = 12;

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use super::error::ImplantError;
 use super::header::Header;
 use super::needs::contour_needed;
-use super::wire::{CRC, HEADER_BYTES};
+use super::wire::HEADER_BYTES;
+use crate::checksum::checksum;
 use crate::library::Library;
 use crate::mesh::Model;
 use crate::mesh::edges::{PackMemory, pack_edges, packed_needed};
@@ -69,7 +70,7 @@ pub fn write_implant(
     bytes.extend(rims.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.resize(bytes.len().next_multiple_of(4), 0);
     bytes.extend(library);
-    header.body_crc = CRC.checksum(&bytes[HEADER_BYTES..]);
+    header.body_crc = checksum([&bytes[HEADER_BYTES..]]);
     bytes[..HEADER_BYTES].copy_from_slice(&header.write());
     Ok(bytes)
 }
