@@ -18,7 +18,7 @@ pub struct ImplantCheck<'a> {
 }
 
 impl<'a> ImplantFile<'a> {
-    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, triangles and edges have
+    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, edges have
     /// theirs, and all that [`Library::open`] checks. Takes time proportional
     /// to the length, once; [`ImplantCheck`] takes it in slices.
     ///
@@ -79,12 +79,16 @@ impl<'a> ImplantCheck<'a> {
             return Err(ImplantError::Checksum("body"));
         }
         let parts = Parts::of(&self.header, self.bytes)?;
-        let bounds = Mesh::check(parts.vertices, parts.triangles)?;
+        let bounds = match parts.triangles {
+            // Those of the edges are.
+            [] => Mesh::check_vertices(parts.vertices)?,
+            triangles => Mesh::check(parts.vertices, triangles)?,
+        };
         Library::open(parts.library)?;
         if bounds != self.header.bounds() {
             return Err(ImplantError::Value("bounds"));
         }
-        if !parts.edges.fit(parts.vertices.len()) {
+        if !parts.edges.are_some() || !parts.edges.fit(parts.vertices.len()) {
             return Err(ImplantError::Value("edges"));
         }
         ImplantFile::trusted(self.bytes)

@@ -37,13 +37,15 @@ pub fn write_implant(
         edges: &mut packed,
         rims: &mut rims,
     };
-    if !matches!(pack_edges(&edges, memory), Ok(Some(_))) {
+    let kept = pack_edges(&edges, memory).ok().flatten();
+    if !kept.is_some_and(|kept| kept.are_some()) {
         return Err(ImplantError::Edges);
     }
     let contour = contour_needed(model);
     let lengths = [
         model.vertices().len(),
-        model.triangles().len(),
+        // They are found again from the edges.
+        0,
         boxes.len(),
         packed.len(),
         rims.len(),
@@ -62,8 +64,6 @@ pub fn write_implant(
     };
     let mut bytes = vec![0; HEADER_BYTES];
     let numbers = model.vertices().iter().flatten();
-    bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
-    let numbers = model.triangles().iter().flatten();
     bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
     bytes.extend(boxes.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(packed.iter().flatten().flat_map(|x| x.to_le_bytes()));
