@@ -90,12 +90,13 @@ impl PackedEdges<'_> {
 
 /// An edge as it was before it was packed, but for what its triangles need of a margin.
 pub(crate) fn unpacked(edge: &PackedEdge) -> MeshEdge {
-    let [from, to, forth, back] = edge.map(u32::from);
+    // One after the other: `map` makes a loop of it, which some compilers leave one.
+    let &[from, to, forth, back] = edge;
     MeshEdge {
-        from,
-        to,
-        forth,
-        back,
+        from: from.into(),
+        to: to.into(),
+        forth: forth.into(),
+        back: back.into(),
         order: 0,
     }
 }
