@@ -59,6 +59,7 @@ mod state;
 mod subject;
 mod trail;
 mod trust;
+mod valley;
 mod way;
 
 pub use cell::{Anchor, Cell};
@@ -89,7 +90,7 @@ pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
 #[cfg(feature = "alloc")]
 pub use other_margins::other_margins;
-pub use search_order::{TRIES, frames_to_search, run_to_search};
+pub use search_order::{RunsToSearch, TRIES, frames_to_search};
 pub use search_plan::{
     Ends, FAR, KnownFrame, LED, NOWHERE, Other, Places, Search, SearchPlan, SearchStep, Sought,
     VAIN, WAYS,

@@ -28,6 +28,7 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+mod checksum;
 pub mod memory;
 pub mod pace;
 pub mod shortlist;

@@ -16,6 +16,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::OneClickBuffers;
+use fluoropose_tracing::reduced::ReducedPixels;
 use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::prelude::*;
 
@@ -70,6 +71,7 @@ impl Search {
         image: &ImageTarget<'_>,
         component: &Component<'_>,
         (finder, own, refine): (&mut FinderBuffers, &mut OneClickBuffers, &mut RefineBuffers),
+        written: ReducedPixels<'_>,
     ) -> Result<bool, JsError> {
         let (model, camera) = (subject.model, subject.camera);
         match self {
@@ -77,13 +79,13 @@ impl Search {
                 Ok(search.step(subject, image, &mut refine.borrow(model, camera)))
             }
             Self::Whole(search) => {
-                let Some(needs) = search.needs(camera) else {
+                let Some(needs) = search.needs() else {
                     return Ok(false);
                 };
                 let finder = finder.borrow(component, camera, Kernels::PORTABLE);
                 let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
                 search
-                    .step(subject, image, component, &mut memory)
+                    .step(subject, image, component, &mut memory, written)
                     .map_err(sentence)
             }
         }
@@ -266,7 +268,8 @@ impl FrameSearch {
                 });
             }
             kept.as_mut().map_or(Ok(false), |search| {
-                search.go_on(&subject, image, &component, (finder, own, refine))
+                let written = for_places.reduced();
+                search.go_on(&subject, image, &component, (finder, own, refine), written)
             })
         };
         let hidden = beside.map(|beside| beside.hidden.as_slice());

@@ -215,7 +215,9 @@ pub fn measure(
     let grid = Grid::of(lines.iter().map(|line| line.course), heads, groups);
     let middle = -pose.transform(&model.centre())[2] as f32;
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
-    for (number, triangle) in (1..).zip(model.triangles()) {
+    let mut number = 0;
+    model.for_each_triangle(|triangle| {
+        number += 1;
         let corners = triangle.map(image);
         let mut nearness = None;
         grid.for_each_cut(&corners, |line, seen| {
@@ -232,7 +234,7 @@ pub fn measure(
                 *nearness.get_or_insert_with(|| triangle.map(nearness_of))
             });
         });
-    }
+    });
     close(lines, camera);
     Ok(())
 }

@@ -40,6 +40,14 @@ pub struct FlippedFit {
     pub gain: f64,
 }
 
+impl FlippedFit {
+    /// Whether it fits so much worse that, where it is so in most frames, nothing is told whatever else is seen.
+    #[must_use]
+    pub fn is_poor(&self) -> bool {
+        self.gain * DECISIVE_RATIO < 1.0
+    }
+}
+
 /// Of outlines without noise what is left is rounding, square pixels: less is no better.
 const LEAST_LOSS: f64 = 1e-3;
 
@@ -124,7 +132,7 @@ impl FlippedKnee {
         let fits = fits.iter().copied().collect::<Option<Vec<_>>>()?;
         let gain = |component: usize| median(fits.iter().map(|fit| fit[component].gain));
         let (femur, tibia) = (gain(0)?, gain(1)?);
-        let fit_as_well = femur.min(tibia) * DECISIVE_RATIO >= 1.0;
+        let fit_as_well = femur.min(tibia) * DECISIVE_RATIO >= 1.0; // [`FlippedFit::is_poor`]
         let apart = |[femur, tibia]: &[FlippedFit; 2]| {
             let mm = self.middles.apart_mm(&femur.pose, &tibia.pose);
             mm.abs()

@@ -8,7 +8,9 @@
 use heapless::Vec;
 
 use super::frame_pose::{FramePose, From, probed, refined_within};
+use super::sides::ELSEWHERE_RATIO;
 use super::subject::Subject;
+use super::valley::along_valley;
 use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, sin_cos};
 use crate::pose::{Pose, geodesic_deg};
@@ -38,13 +40,18 @@ pub fn elsewhere(
 ) -> Option<FramePose> {
     let known = || core::iter::once(own).chain(mirrored);
     let mut best: Option<FramePose> = None;
-    for near in near_elsewhere(subject, image, known().map(|known| &known.pose), memory) {
+    let around = near_elsewhere(subject, image, known().map(|known| &known.pose), memory);
+    let valley = along_valley(own, &subject.model.bounds().centre);
+    for near in around.into_iter().chain(valley) {
         let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
         let Some(found) = refined_within(most_px, subject, image, (&near, From::Near), memory)
         else {
             continue;
         };
-        let back = known().any(|one| are_one(&one.pose, &found.pose));
+        let back = known().any(|one| {
+            let leaves_less = ELSEWHERE_RATIO * found.misfit_px < one.misfit_px;
+            are_one(&one.pose, &found.pose) && !leaves_less
+        });
         let strong = found.contrast.strength >= LEAST_STRENGTH * own.contrast.strength;
         let less = best.is_none_or(|best| found.misfit_px < best.misfit_px);
         if strong && less && !back {

@@ -16,7 +16,7 @@ use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
 use super::frame_pose::{FramePose, mirrored_pose};
 use super::known_femur::KnownFemur;
-use super::search_order::{frames_to_search, run_to_search};
+use super::search_order::{RunsToSearch, frames_to_search};
 use super::second_look::SecondLook;
 use super::settling::{Settling, SettlingStep};
 use super::side_samples::SideSample;
@@ -53,6 +53,7 @@ pub struct Following {
     phase: Phase,
     /// The caller looks for the component in whole frames where nothing leads to it.
     searches: bool,
+    runs: RunsToSearch,
     settling: Settling,
     /// A step that waits for the caller's word.
     waiting: Option<SettlingStep>,
@@ -79,6 +80,7 @@ impl Following {
             tasks: VecDeque::new(),
             phase: Phase::Way,
             searches: false,
+            runs: RunsToSearch::default(),
             waiting: None,
             may_see: false,
             may_choose: false,
@@ -115,8 +117,9 @@ impl Following {
         let (Some(frame), run) = (frames.pop(), run.clone()) else {
             return;
         };
-        if let Some(pose) = pose {
-            self.tasks[0] = Task::Found { frame, pose, run };
+        match pose {
+            Some(pose) => self.tasks[0] = Task::Found { frame, pose, run },
+            None => self.runs.missed(&run),
         }
     }
 
@@ -387,7 +390,7 @@ impl Following {
         if !self.searches || self.anchors.is_empty() {
             return None;
         }
-        let run = run_to_search(&self.cells, &(from..self.range.end))?;
+        let run = self.runs.next(&self.cells, &(from..self.range.end))?;
         let frames = frames_to_search(&run).into_iter().rev().collect();
         let search = Task::Search {
             run: run.clone(),

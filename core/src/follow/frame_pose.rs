@@ -2,6 +2,7 @@
 
 use super::contrast::{Contrast, contrast};
 use super::subject::Subject;
+use super::valley::along_valley;
 use crate::math::sqrt;
 use crate::mesh::mirror::mirror_pose;
 use crate::pose::covariance::PoseCovariance;
@@ -188,5 +189,24 @@ pub fn mirrored_pose(
             best = Some(found);
         }
     }
-    best
+    best.map(|best| least_along_valley(subject, image, (&best, own), memory))
+}
+
+/// The pose that leaves least of one and of what starts along what the frame tells least of lead to, but for those that lead to `other`.
+fn least_along_valley(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    (one, other): (&FramePose, &FramePose),
+    memory: &mut RefineMemory<'_>,
+) -> FramePose {
+    let mut least = *one;
+    for start in along_valley(one, &subject.model.bounds().centre) {
+        let start = (&start, From::Near);
+        let found = refined_within(least.misfit_px, subject, image, start, memory);
+        let off = |found: &FramePose| geodesic_deg(&found.pose.rotation, &other.pose.rotation);
+        if let Some(found) = found.filter(|found| off(found) > SAME_DEG) {
+            least = found;
+        }
+    }
+    least
 }

@@ -17,7 +17,7 @@ use crate::pose::geodesic_deg;
 ///
 /// The tilt of a tray errs alike in all frames, and its votes add up: where the side that was not chosen leaves so much less in any frame than is
 /// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where it leaves as much less than the
-/// frame's own pose alone, that pose is off, and open in this frame.
+/// frame's own pose alone, that pose is off, and open in this frame. So is one that has gone back to the side that was not chosen.
 #[must_use]
 pub fn other_margins(
     samples: &[SideSample],
@@ -30,7 +30,9 @@ pub fn other_margins(
         let margin = side_margin(samples, steps, frame)?;
         let nearest = nearest(samples, frame)?;
         let is_own = samples[nearest].frame == frame;
-        let is_open = open[nearest] || is_own && leaves_more(&samples[nearest], cells, f64::MAX);
+        let is_open = open[nearest]
+            || is_own && leaves_more(&samples[nearest], cells, f64::MAX)
+            || is_own && is_rejected(&samples[nearest], &steps[nearest], cells);
         Some(match is_open {
             true => SideMargin {
                 margin: 0.0,
@@ -93,6 +95,13 @@ fn leaves_more(sample: &SideSample, cells: &[Cell], usual_px: f64) -> bool {
     })
 }
 
+/// Whether the pose of a frame has gone back to the side that was not chosen.
+fn is_rejected(sample: &SideSample, step: &SideStep, cells: &[Cell]) -> bool {
+    let cell = cells.get(sample.frame).filter(|cell| !cell.fixed);
+    let now = cell.and_then(Cell::found);
+    now.is_some_and(|now| sample.chosen_but_left(step.side, now).is_some())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,6 +151,20 @@ mod tests {
         let margins = other_margins(&samples, &steps, &[], &cells);
         assert_eq!(margins[0], None);
         assert!(margins[1].is_some());
+    }
+
+    #[test]
+    fn a_pose_that_went_back_to_the_other_side_is_open() {
+        let (samples, mut cells) = film([0.9; 7], None);
+        let mut steps = vec![SideStep::default(); 7];
+        steps.iter_mut().for_each(|step| step.margin = 5.0);
+        let margin = |cells: &[Cell]| {
+            let margins = other_margins(&samples, &steps, &[], cells);
+            margins[5].map(|one| one.margin)
+        };
+        assert_eq!(margin(&cells), Some(5.0));
+        cells[5] = Cell::from(&Anchor::found(5, turned(39.0, CHOSEN)));
+        assert_eq!(margin(&cells), Some(0.0));
     }
 
     #[test]

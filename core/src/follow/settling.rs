@@ -10,6 +10,7 @@ use core::ops::Range;
 use super::cell::{Anchor, Cell};
 use super::crossing::{Crossing, frames_to_cross_from};
 use super::false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
+use super::frame_pose::FramePose;
 use super::known_femur::KnownFemur;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
@@ -42,6 +43,8 @@ enum Phase {
     Choose,
     /// To the other side, where that is the right one.
     GoOver,
+    /// The way may have led back.
+    Stay,
     Elsewhere,
     /// To what was seen there, where that is the right one.
     GoElsewhere,
@@ -100,7 +103,11 @@ impl Settling {
                 Phase::Choose => (Some(SettlingStep::Choose), Phase::GoOver),
                 Phase::GoOver => {
                     let runs = runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
-                    (self.to_go_over(runs, cells), Phase::Elsewhere)
+                    (self.to_go_over(runs, cells), Phase::Stay)
+                }
+                Phase::Stay => {
+                    self.stay(cells);
+                    (None, Phase::Elsewhere)
                 }
                 Phase::Elsewhere => (self.unseen(Rival::Elsewhere, cells), Phase::GoElsewhere),
                 Phase::GoElsewhere => self.go_elsewhere(cells),
@@ -220,6 +227,17 @@ impl Settling {
         (!runs.is_empty()).then_some(SettlingStep::GoOver(runs))
     }
 
+    /// Frames whose way led back to the side that was not chosen take the pose that was seen on the other one.
+    fn stay(&self, cells: &mut [Cell]) {
+        for (sample, step) in self.choice() {
+            let cell = &mut cells[sample.frame];
+            let now = cell.found().filter(|_| !cell.fixed);
+            if let Some(chosen) = now.and_then(|now| sample.chosen_but_left(step.side, now)) {
+                cell.improve(chosen);
+            }
+        }
+    }
+
     fn go_elsewhere(&mut self, cells: &mut [Cell]) -> (Option<SettlingStep>, Phase) {
         self.elsewhere.sort_by_key(|sample| sample.frame);
         if self.rounds == 0 {
@@ -238,10 +256,11 @@ impl Settling {
         }
     }
 
-    /// The ways to elsewhere stay where they leave less; whether any does.
+    /// The ways to elsewhere stay where they leave less, in frames that were seen from there also what was seen; whether any does.
     fn keep_what_leaves_less(&mut self, cells: &mut [Cell]) -> bool {
         let mut any = false;
         for (run, before) in take(&mut self.before) {
+            self.take_what_was_seen(&run, cells);
             let cells = &mut cells[run];
             match leaves_less(cells, &before) {
                 true => any = true,
@@ -249,6 +268,21 @@ impl Settling {
             }
         }
         any
+    }
+
+    /// Where the way there leaves more than what was seen there.
+    fn take_what_was_seen(&self, run: &Range<usize>, cells: &mut [Cell]) {
+        let seen = self.elsewhere.iter();
+        for sample in seen.filter(|sample| run.contains(&sample.frame)) {
+            let cell = &mut cells[sample.frame];
+            let less = |other: &FramePose| {
+                let now = cell.found();
+                now.is_none_or(|now| now.misfit_px > other.misfit_px)
+            };
+            if let Some(other) = sample.free().filter(less) {
+                cell.improve(other);
+            }
+        }
     }
 
     fn to_look_again(&self, cells: &[Cell]) -> Option<SettlingStep> {
@@ -330,6 +364,38 @@ mod tests {
             assert!(words.len() < 40, "it ends: {words:?}");
         }
         words
+    }
+
+    /// A way on the other side that leads back.
+    #[test]
+    fn frames_stay_on_the_side_that_was_chosen() {
+        let mut cells = film();
+        let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+        let SettlingStep::See(..) = settling.next(&mut cells).expect("sides") else {
+            panic!("both sides are seen first");
+        };
+        let other = |frame: usize| turned(frame as f64 + 20.0, 0.05);
+        for (frame, cell) in cells.iter().enumerate() {
+            settling.saw(SideSample {
+                frame,
+                own: *cell.found().expect("it was seen"),
+                rival: Rival::Mirrored,
+                other: Some(other(frame)),
+                fixed: false,
+            });
+        }
+        settling.next(&mut cells);
+        settling.choose(None);
+        settling.next(&mut cells);
+        cells = film();
+        for cell in &mut cells[..4] {
+            *cell = Cell::default();
+        }
+        settling.next(&mut cells);
+        assert!(cells[..4].iter().all(|cell| cell.found().is_none()));
+        for (frame, cell) in cells.iter().enumerate().skip(4) {
+            assert_eq!(cell.found(), Some(&other(frame)));
+        }
     }
 
     #[test]

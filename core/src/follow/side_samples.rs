@@ -7,7 +7,11 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
+#[cfg(feature = "alloc")]
+use super::sides::ONE_DEG;
 use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
+#[cfg(feature = "alloc")]
+use crate::math::{atan2, cross, degrees, dot, norm};
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -61,20 +65,63 @@ impl SideSample {
             apart_deg: other.map_or(180.0, apart),
             rival: self.rival,
             went_over: false,
+            goes_on: [false; 2],
+            turn_deg: 0.0,
         }
     }
 
     /// Whether the trail has gone over to the other side between an earlier frame and this one: each pose is much nearer to the other
-    /// one of the other frame. Where the part turns as far between the two as its sides are apart, nothing tells.
+    /// one of the other frame. Where the part turns as far between the two as its sides are apart, the side that it is seen from tells:
+    /// limbs swing in the image plane, and mirror images differ out of it.
     #[cfg(feature = "alloc")]
     fn went_over_since(&self, before: &Self) -> bool {
         let (Some(other), Some(before_other)) = (&self.other, &before.other) else {
             return false;
         };
-        let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
-        let stayed = deg(&self.own, &before.own) + deg(other, before_other);
-        let crossed = deg(&self.own, before_other) + deg(other, &before.own);
+        let ways = |apart: &dyn Fn(&Pose, &Pose) -> f64| {
+            let of = |a: &FramePose, b: &FramePose| apart(&a.pose, &b.pose);
+            let stayed = of(&self.own, &before.own) + of(other, before_other);
+            let crossed = of(&self.own, before_other) + of(other, &before.own);
+            [stayed, crossed]
+        };
+        let [stayed, crossed] = ways(&|a, b| geodesic_deg(&a.rotation, &b.rotation));
+        let is_told = crossed < CROSSED * stayed || stayed < CROSSED * crossed;
+        let [stayed, crossed] = match is_told {
+            true => [stayed, crossed],
+            false => ways(&|a, b| out_of_plane_deg(a, b)),
+        };
         self.rival == Rival::Mirrored && crossed < CROSSED * stayed
+    }
+
+    /// Whether the other pose goes on from the trail of an earlier frame, and the trail from the other pose there, rather than the trail from
+    /// itself.
+    #[cfg(feature = "alloc")]
+    fn goes_on_from(&self, before: &Self) -> [bool; 2] {
+        if self.rival == Rival::Mirrored {
+            return [false; 2];
+        }
+        let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose);
+        let most = CROSSED * deg(&self.own, &before.own);
+        let is_near = |a: Option<&FramePose>, b: Option<&FramePose>| {
+            a.zip(b).is_some_and(|(a, b)| deg(a, b) < most)
+        };
+        [
+            is_near(self.other.as_ref(), Some(&before.own)),
+            is_near(Some(&self.own), before.other.as_ref()),
+        ]
+    }
+
+    /// The pose on the side that was chosen, where that of the frame `now` is rather the rejected one's.
+    #[cfg(feature = "alloc")]
+    pub(super) fn chosen_but_left(&self, side: Side, now: &FramePose) -> Option<FramePose> {
+        let other = self.free().filter(|_| self.rival == Rival::Mirrored)?;
+        let (chosen, rejected) = match side {
+            Side::Own => (self.own, other),
+            Side::Mirrored => (other, self.own),
+        };
+        let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
+        let are_two = deg(&chosen, &rejected) >= ONE_DEG;
+        (are_two && deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
     }
 
     /// The other pose; none where a person has chosen.
@@ -92,6 +139,13 @@ impl SideSample {
     }
 }
 
+/// Angle between the directions of the camera's axis in the model's axes at two poses: turns in the image plane, and shifts, leave it as it is.
+#[cfg(feature = "alloc")]
+fn out_of_plane_deg(a: &Pose, b: &Pose) -> f64 {
+    let [a, b] = [a, b].map(|pose| pose.rotation[2]);
+    degrees(atan2(norm(&cross(&a, &b)), dot(&a, &b)))
+}
+
 /// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
 /// the other component, where that is known.
 #[cfg(feature = "alloc")]
@@ -103,6 +157,10 @@ pub(super) fn evidence_of(
     let each = samples.iter().zip(befores);
     let evidence = each.map(|(sample, before)| SideEvidence {
         went_over: before.is_some_and(|before| sample.went_over_since(before)),
+        goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before)),
+        turn_deg: before.map_or(0.0, |before| {
+            out_of_plane_deg(&before.own.pose, &sample.own.pose)
+        }),
         ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
     });
     evidence.collect()
@@ -158,7 +216,7 @@ mod tests {
     use crate::follow::fake::turned;
     use crate::follow::sides::choose_sides;
     #[cfg(feature = "alloc")]
-    use crate::math::{Matrix3, multiply, norm, rotation_by, scale};
+    use crate::math::{Matrix3, multiply, rotation_by, scale};
     #[cfg(feature = "alloc")]
     use proptest::array::{uniform2, uniform3};
     #[cfg(feature = "alloc")]
@@ -216,6 +274,28 @@ mod tests {
             let behind = sample(8, if jumped { [&other, &one] } else { [&one, &other] });
             let evidence = evidence_of(&[before, behind], |_, _| None);
             prop_assert_eq!([evidence[0].went_over, evidence[1].went_over], [false, jumped]);
+        }
+
+        /// Where the limb swings in the image plane by more than its sides are apart.
+        #[test]
+        fn a_trail_that_jumped_is_known_however_the_limb_swings(
+            model in uniform3(-1.8..1.8f64), shift in uniform3(-90.0..90.0f64),
+            apart in 0.08..1.2f64, swing in -0.9..0.9f64, turn in uniform3(-0.1..0.1f64), jumped in any::<bool>(),
+        ) {
+            let model = rotation_by(&model);
+            let part_at = |swing: f64, tilt: f64, turn: f64| {
+                let mut found = turned(0.0, 0.5);
+                let tilted = multiply(&rotation_by(&[tilt + turn * apart, 0.0, 0.0]), &model);
+                found.pose.rotation = multiply(&rotation_by(&[0.0, 0.0, swing]), &tilted);
+                found.pose.translation = core::array::from_fn(|k| found.pose.translation[k] + shift[k] * swing);
+                found
+            };
+            let sample = |frame, own, other| SideSample { frame, own, rival: Rival::Mirrored, other: Some(other), fixed: false };
+            let before = sample(0, part_at(0.0, 0.0, 0.0), part_at(0.0, apart, 0.0));
+            let [one, other] = [part_at(swing, 0.0, turn[0]), part_at(swing, apart, turn[1])];
+            let behind = if jumped { sample(8, other, one) } else { sample(8, one, other) };
+            let evidence = evidence_of(&[before, behind], |_, _| None);
+            prop_assert_eq!(evidence[1].went_over, jumped);
         }
     }
 }

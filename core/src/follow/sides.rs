@@ -41,6 +41,11 @@ pub struct SideEvidence {
     /// Whether the trail has gone over to the other side since the frame before: one side of the mirror is then the trail there and the
     /// other pose here.
     pub went_over: bool,
+    /// Of a pose elsewhere: whether it goes on from the trail of the frame before, and whether the trail goes on from what was elsewhere
+    /// there, rather than the trail from itself.
+    pub goes_on: [bool; 2],
+    /// By how much the trail turns out of the image plane from the frame before, degrees.
+    pub turn_deg: f64,
 }
 
 /// Which of the two is the right one.
@@ -70,6 +75,8 @@ pub(super) const ONE_DEG: f64 = 4.0;
 const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
+/// What it costs to stay on a trail that jumps by [`ONE_DEG`] or less where another pose does not; by more, as much more, up to [`MOST`].
+const JUMP: f64 = 0.5;
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
 pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 /// What residuals say that decide nothing by themselves.
@@ -99,14 +106,21 @@ impl SideEvidence {
             Rival::Elsewhere => ELSEWHERE_RATIO,
         };
         let residual = ln(ratio.clamp(0.1, 10.0)) / ln(decisive);
-        if residual.abs() >= 1.0 || self.rival == Rival::Elsewhere {
+        if self.rival == Rival::Elsewhere {
             return residual.clamp(-MOST, MOST);
         }
         let tilt = match (self.own.tilt_deg, self.mirrored.tilt_deg) {
             (Some(own), Some(mirrored)) => (mirrored.abs() - own.abs()) / TILT_MARGIN_DEG,
             _ => 0.0,
         };
-        tilt.clamp(-1.0, 1.0) + HINT * residual
+        let tilt = tilt.clamp(-1.0, 1.0);
+        match residual.abs() >= 1.0 {
+            // What differs between model and part is the same in all frames, and so are their residuals, and the right side may not have
+            // come to its minimum: where the knee tells otherwise, they do not tell by themselves.
+            true if residual * tilt < 0.0 => residual.clamp(-MOST, MOST) + tilt,
+            true => residual.clamp(-MOST, MOST),
+            false => tilt + HINT * residual,
+        }
     }
 
     /// What either side costs.
@@ -115,13 +129,20 @@ impl SideEvidence {
         [(-own).max(0.0), own.max(0.0)]
     }
 
-    /// What it costs to go over to the other side on the way to the next frame.
-    fn to(&self, next: &Self) -> f64 {
+    /// What the ways to the next frame cost: row by row from the trail and from the other pose, to the trail and to the other pose.
+    /// Where the trail jumps and the other pose does not, it is the trail that goes over.
+    fn to(&self, next: &Self) -> [[f64; 2]; 2] {
         let [meeting, apart] = GO_OVER;
-        match self.meet() || next.meet() {
+        let over = match self.meet() || next.meet() {
             true => meeting,
             false => apart,
-        }
+        };
+        let [leaves, comes] = next.goes_on.map(|goes_on| if goes_on { 0.0 } else { over });
+        let jump = match next.goes_on.contains(&true) {
+            true => JUMP * (next.turn_deg / ONE_DEG).clamp(1.0, MOST / JUMP),
+            false => 0.0,
+        };
+        [[jump, leaves], [comes, 0.0]]
     }
 
     /// What the pose of a number, 0 for the trail's, is in the frame before, and the other way round.
@@ -146,10 +167,10 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
     for at in 0..count {
         let own = evidence[at].costs();
         let led = at.checked_sub(1).map(|last| {
-            let (before, go_over) = (steps[last].costs, evidence[last].to(&evidence[at]));
+            let (before, ways) = (steps[last].costs, evidence[last].to(&evidence[at]));
             [0, 1].map(|to: usize| {
-                let from = evidence[at].across(to);
-                before[from].min(before[1 - from] + go_over)
+                let by = |from: usize| before[from] + ways[from][evidence[at].across(to)];
+                by(0).min(by(1))
             })
         });
         let led = led.unwrap_or_default();
@@ -161,11 +182,11 @@ pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
     let mut rest = [0.0; 2];
     for at in (0..count).rev() {
         if let Some(next) = evidence.get(at + 1) {
-            let (own, go_over) = (next.costs(), evidence[at].to(next));
-            let from = [0, 1].map(|side: usize| rest[side] + own[side]);
-            rest = [0, 1].map(|side: usize| {
-                let to = next.across(side);
-                from[to].min(from[1 - to] + go_over)
+            let (own, ways) = (next.costs(), evidence[at].to(next));
+            let behind = [0, 1].map(|side: usize| rest[side] + own[side]);
+            rest = [0, 1].map(|from: usize| {
+                let by = |to: usize| ways[from][next.across(to)] + behind[to];
+                by(0).min(by(1))
             });
         }
         let step = &mut steps[at];
@@ -196,6 +217,8 @@ mod tests {
             apart_deg,
             rival: Rival::Mirrored,
             went_over: false,
+            goes_on: [false; 2],
+            turn_deg: 0.0,
         }
     }
 
@@ -217,6 +240,21 @@ mod tests {
             assert_eq!(side, Side::Own);
             assert!(margin >= 4.0, "{margin}");
         }
+    }
+
+    /// What four frames' residuals tell is one thing told four times.
+    #[test]
+    fn residuals_and_a_knee_that_contradict_each_other_leave_it_open() {
+        let film = |tilts: Option<[f64; 2]>| {
+            let frames = (0..4).map(|frame| seen(frame, 1.35, tilts, 18.0));
+            let frames: Vec<_> = frames.collect();
+            chosen(&frames)
+        };
+        let decided = film(None)[0];
+        assert!(decided.0 == Side::Own && decided.1 > 4.0);
+        assert_eq!(film(Some([1.0, 4.0])), film(None), "they agree");
+        let (_, margin) = film(Some([4.0, 1.0]))[0];
+        assert!(margin < 1.0, "{margin}");
     }
 
     #[test]
@@ -264,6 +302,49 @@ mod tests {
         };
         assert_eq!(sides(&turned), [own; 5]);
         assert_eq!(margins(&turned), margins(&film(true)));
+    }
+
+    #[test]
+    fn a_trail_that_jumps_is_left_where_it_does() {
+        let film = |jumps: bool| -> Vec<SideEvidence> {
+            let seen = |frame: usize| SideEvidence {
+                rival: Rival::Elsewhere,
+                goes_on: [jumps && frame == 6, false],
+                ..seen(frame, if frame < 6 { 1.08 } else { 0.7 }, None, 5.0)
+            };
+            (0..8).map(seen).collect()
+        };
+        let [stayed, left] = [false, true].map(|jumps| chosen(&film(jumps)));
+        assert!(stayed.iter().all(|step| step.0 == Side::Own));
+        let sides = left.iter().map(|step| step.0);
+        assert!(
+            sides
+                .enumerate()
+                .all(|(k, side)| (side == Side::Mirrored) == (k >= 6))
+        );
+        assert!(left[6].1 > 3.0 && left[7].1 > 3.0, "{left:?}");
+    }
+
+    #[test]
+    fn a_frame_that_the_trail_jumps_to_and_from_is_open() {
+        let film = |turn_deg: f64| -> Vec<SideEvidence> {
+            let seen = |frame: usize| SideEvidence {
+                rival: Rival::Elsewhere,
+                goes_on: [frame == 4, frame == 5],
+                turn_deg,
+                ..seen(frame, 1.3, None, 5.0)
+            };
+            (0..8).map(seen).collect()
+        };
+        assert_eq!(chosen(&film(1.0))[4].0, Side::Own);
+        assert_eq!(chosen(&film(17.0))[4].0, Side::Mirrored);
+        assert!(
+            chosen(&film(17.0))
+                .iter()
+                .filter(|step| step.0 == Side::Mirrored)
+                .count()
+                == 1
+        );
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::joint::impossible::Impossible;
 use crate::math::Vector3;
 use crate::mesh::anatomy::KneeComponent;
 use crate::pose::Pose;
+use crate::pose::covariance::PoseCovariance;
 
 /// What is known of a component in one frame when a film is judged.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,6 +31,8 @@ pub struct FrameEvidence {
 
 /// How bad it is where no part can be: no other reason is worse.
 const BEHIND: f64 = 1e3;
+/// A rotation of which nothing is known.
+const ALL_DEG: f64 = 180.0;
 
 /// Limits of trust.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -377,11 +380,16 @@ impl Trust {
         self.weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
         let known = found.fit.seen();
         self.weigh(limits.known / known.max(0.01), Distrust::Cut(known));
-        if let Some(covariance) = &found.covariance {
-            let deg = covariance.rotation_deg();
-            self.weigh(deg / limits.sd_deg, Distrust::Undetermined(deg));
-        }
+        let deg = open_deg(found.covariance.as_ref());
+        self.weigh(deg / limits.sd_deg, Distrust::Undetermined(deg));
     }
+}
+
+/// How much of a rotation a frame leaves open, degrees (standard deviation): all of it where it determines no pose, or so little of one that
+/// what is worked out for a variance is none.
+fn open_deg(covariance: Option<&PoseCovariance>) -> f64 {
+    let determined = covariance.filter(|one| (0..6).all(|k| one.matrix[k][k] > 0.0));
+    determined.map_or(ALL_DEG, PoseCovariance::rotation_deg)
 }
 
 /// The median of some numbers; 0 without any.
@@ -400,6 +408,27 @@ fn median(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::follow::fake::turned;
+
+    /// Of an outline that determines nothing there is no covariance, and of one that hardly determines it a variance may come out below 0.
+    #[test]
+    fn what_no_outline_determines_is_doubtful() {
+        let told = |change: fn(&mut FramePose)| {
+            let mut found = turned(0.0, 0.1);
+            change(&mut found);
+            let mut trust = Trust::default();
+            trust.weigh_fit(&found, &TrustLimits::USUAL, &Usual::default());
+            trust.distrust
+        };
+        assert_eq!(told(|_| {}), None);
+        let all = Some(Distrust::Undetermined(ALL_DEG));
+        assert_eq!(told(|found| found.covariance = None), all);
+        for k in 0..6 {
+            let mut found = turned(0.0, 0.1);
+            let covariance = found.covariance.as_mut().expect("it has one");
+            covariance.matrix[k][k] = -1e-4;
+            assert_eq!(open_deg(found.covariance.as_ref()), ALL_DEG, "{k}");
+        }
+    }
 
     #[test]
     fn what_lies_behind_the_detector_is_doubtful_before_all_else() {

@@ -162,11 +162,13 @@ impl<'a> Mask<'a> {
     /// Whether a pixel is set; outside the mask none is.
     #[must_use]
     pub fn get(&self, column: usize, row: usize) -> bool {
-        column < self.width
-            && self
-                .row(row)
-                .get(column / WORD_BITS)
-                .is_some_and(|word| word >> (column % WORD_BITS) & 1 == 1)
+        if column >= self.width || row >= self.height {
+            return false;
+        }
+        let word = self
+            .words
+            .get(row * row_words(self.width) + column / WORD_BITS);
+        word.is_some_and(|word| word >> (column % WORD_BITS) & 1 == 1)
     }
 
     /// A pixel, the one to its right, and the two below them, from the lowest bit; outside the mask
@@ -178,15 +180,14 @@ impl<'a> Mask<'a> {
             return 0;
         }
         let word = |place: usize| self.words.get(place).copied().unwrap_or(0);
-        let pair = |place: usize| {
-            if shift < WORD_BITS - 1 {
-                return word(place) >> shift & 3;
-            }
-            let next = if at + 1 < stride { word(place + 1) } else { 0 };
-            word(place) >> shift | (next & 1) << 1
-        };
         let place = row * stride + at;
-        pair(place) | pair(place + stride) << 2
+        let (above, below) = (word(place) >> shift, word(place + stride) >> shift);
+        // In the last bit of a word the pixels to the right are the next one's.
+        let (right_above, right_below) = match shift == WORD_BITS - 1 && at + 1 < stride {
+            true => (word(place + 1) << 1, word(place + stride + 1) << 1),
+            false => (0, 0),
+        };
+        (above | right_above) & 3 | ((below | right_below) & 3) << 2
     }
 
     /// Number of pixels set.

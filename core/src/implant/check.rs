@@ -1,11 +1,10 @@
 //! Checking an implant file in slices of time.
 
-use crc::Digest;
-
 use super::error::ImplantError;
 use super::header::Header;
 use super::open::{ImplantFile, Parts};
-use super::wire::{CRC, HEADER_BYTES};
+use super::wire::HEADER_BYTES;
+use crate::checksum::Checksum;
 use crate::library::Library;
 use crate::mesh::Mesh;
 
@@ -13,13 +12,13 @@ use crate::mesh::Mesh;
 pub struct ImplantCheck<'a> {
     bytes: &'a [u8],
     header: Header,
-    digest: Digest<'static, u32>,
+    sum: Checksum,
     /// Bytes that are in the sum.
     at: usize,
 }
 
 impl<'a> ImplantFile<'a> {
-    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, triangles and edges have
+    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, edges have
     /// theirs, and all that [`Library::open`] checks. Takes time proportional
     /// to the length, once; [`ImplantCheck`] takes it in slices.
     ///
@@ -29,8 +28,6 @@ impl<'a> ImplantFile<'a> {
         ImplantCheck::new(bytes)?.finish()
     }
 }
-
-static TABLE: crc::Crc<u32> = CRC;
 
 impl core::fmt::Debug for ImplantCheck<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -51,7 +48,7 @@ impl<'a> ImplantCheck<'a> {
         Ok(Self {
             bytes,
             header,
-            digest: TABLE.digest(),
+            sum: Checksum::EMPTY,
             at: HEADER_BYTES,
         })
     }
@@ -65,8 +62,8 @@ impl<'a> ImplantCheck<'a> {
     /// Takes at most so many more bytes into the sum. Gives whether some are left.
     pub fn go_on(&mut self, bytes: usize) -> bool {
         let end = self.at.saturating_add(bytes).min(self.bytes.len());
-        self.digest
-            .update(self.bytes.get(self.at..end).unwrap_or_default());
+        self.sum
+            .add(self.bytes.get(self.at..end).unwrap_or_default());
         self.at = end;
         self.left() > 0
     }
@@ -78,16 +75,20 @@ impl<'a> ImplantCheck<'a> {
     /// [`ImplantError`] says what is wrong.
     pub fn finish(mut self) -> Result<ImplantFile<'a>, ImplantError> {
         self.go_on(usize::MAX);
-        if self.digest.finalize() != self.header.body_crc {
+        if self.sum.finish() != self.header.body_crc {
             return Err(ImplantError::Checksum("body"));
         }
         let parts = Parts::of(&self.header, self.bytes)?;
-        let bounds = Mesh::check(parts.vertices, parts.triangles)?;
+        let bounds = match parts.triangles {
+            // Those of the edges are.
+            [] => Mesh::check_vertices(parts.vertices)?,
+            triangles => Mesh::check(parts.vertices, triangles)?,
+        };
         Library::open(parts.library)?;
         if bounds != self.header.bounds() {
             return Err(ImplantError::Value("bounds"));
         }
-        if !parts.edges.fit(parts.vertices.len()) {
+        if !parts.edges.are_some() || !parts.edges.fit(parts.vertices.len()) {
             return Err(ImplantError::Value("edges"));
         }
         ImplantFile::trusted(self.bytes)

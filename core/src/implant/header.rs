@@ -1,7 +1,8 @@
 //! The header of an implant file.
 
 use super::error::ImplantError;
-use super::wire::{CRC, HEADER_BYTES, HEADER_CRC_AT, MAGIC, SIZES, VERSION};
+use super::wire::{HEADER_BYTES, HEADER_CRC_AT, MAGIC, SIZES, VERSION, WITH_TRIANGLES};
+use crate::checksum::checksum;
 use crate::math::Vector3;
 use crate::mesh::Bounds;
 use crate::mesh::symmetry::{PLANES, SymmetryPlane};
@@ -9,7 +10,7 @@ use crate::mesh::symmetry::{PLANES, SymmetryPlane};
 /// What the header says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Header {
-    /// Vertices, triangles, boxes, edges and rims.
+    /// Vertices, triangles (none since version 1), boxes, edges and rims.
     pub(super) counts: [u32; 5],
     pub(super) library_bytes: u32,
     /// How far the surface lies from that of the model that it was made from at most, mm.
@@ -62,10 +63,10 @@ impl Header {
         let mut reader = Reader(checked.get(MAGIC.len()..).unwrap_or_default());
         // The version comes before the checksum: a later layout may keep it elsewhere.
         let version = u16::from_le_bytes(reader.bytes());
-        if version != VERSION {
+        if version != VERSION && version != WITH_TRIANGLES {
             return Err(ImplantError::Version(version));
         }
-        if CRC.checksum(checked) != Reader(rest).u32() {
+        if checksum([checked]) != Reader(rest).u32() {
             return Err(ImplantError::Checksum("header"));
         }
         let length = u16::from_le_bytes(reader.bytes());
@@ -90,7 +91,10 @@ impl Header {
             // There is room for as many.
             let _ = header.planes.push(plane);
         }
-        let is_right = usize::from(length) == HEADER_BYTES && planes <= PLANES;
+        let has_triangles = header.counts[1] > 0;
+        let is_right = usize::from(length) == HEADER_BYTES
+            && planes <= PLANES
+            && has_triangles == (version == WITH_TRIANGLES);
         match is_right && header.needs_are_possible() {
             true => Ok(header),
             false => Err(ImplantError::Value("header")),
@@ -139,7 +143,7 @@ impl Header {
             writer.put(&number.to_le_bytes());
         }
         let (checked, crc) = bytes.split_at_mut(HEADER_CRC_AT);
-        crc.copy_from_slice(&CRC.checksum(checked).to_le_bytes());
+        crc.copy_from_slice(&checksum([checked]).to_le_bytes());
         bytes
     }
 }

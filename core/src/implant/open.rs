@@ -48,7 +48,8 @@ impl<'a> ImplantFile<'a> {
         self.bytes
     }
 
-    /// The surface with the edges that it is drawn from.
+    /// The surface with the edges that it is drawn from. Its triangles are those that the edges are of
+    /// ([`Model::for_each_triangle`]); a list of them stands in files of version 0 alone.
     #[must_use]
     pub fn model(&self) -> &Model<'a> {
         &self.model

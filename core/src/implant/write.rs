@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use super::error::ImplantError;
 use super::header::Header;
 use super::needs::contour_needed;
-use super::wire::{CRC, HEADER_BYTES};
+use super::wire::HEADER_BYTES;
+use crate::checksum::checksum;
 use crate::library::Library;
 use crate::mesh::Model;
 use crate::mesh::edges::{PackMemory, pack_edges, packed_needed};
@@ -36,13 +37,15 @@ pub fn write_implant(
         edges: &mut packed,
         rims: &mut rims,
     };
-    if !matches!(pack_edges(&edges, memory), Ok(Some(_))) {
+    let kept = pack_edges(&edges, memory).ok().flatten();
+    if !kept.is_some_and(|kept| kept.are_some()) {
         return Err(ImplantError::Edges);
     }
     let contour = contour_needed(model);
     let lengths = [
         model.vertices().len(),
-        model.triangles().len(),
+        // They are found again from the edges.
+        0,
         boxes.len(),
         packed.len(),
         rims.len(),
@@ -62,14 +65,12 @@ pub fn write_implant(
     let mut bytes = vec![0; HEADER_BYTES];
     let numbers = model.vertices().iter().flatten();
     bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
-    let numbers = model.triangles().iter().flatten();
-    bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
     bytes.extend(boxes.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(packed.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(rims.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.resize(bytes.len().next_multiple_of(4), 0);
     bytes.extend(library);
-    header.body_crc = CRC.checksum(&bytes[HEADER_BYTES..]);
+    header.body_crc = checksum([&bytes[HEADER_BYTES..]]);
     bytes[..HEADER_BYTES].copy_from_slice(&header.write());
     Ok(bytes)
 }

@@ -11,8 +11,9 @@ use super::runs::draw_runs;
 use super::sketch::{MOST_BLOCKS, blocks};
 use super::wire::{
     Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, Reader, SHORT_RECORD_BYTES, VERSION, Writer,
-    checksum, read_short_record, write_header, write_record,
+    read_short_record, write_header, write_record,
 };
+use crate::checksum::checksum;
 use crate::image::mask::{MaskMut, Word};
 use crate::memory::{TooLittleMemory, first};
 

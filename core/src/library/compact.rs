@@ -10,20 +10,18 @@
 //! - the sketch of each view: a byte for each of those blocks, then zeros to a multiple of 32;
 //! - the runs of each view (`runs.rs`).
 
-use core::iter::Peekable;
 use core::ops::Range;
-use core::slice;
 
-use super::LibraryInfo;
 use super::error::LibraryError;
-use super::runs::are_runs_with;
-use super::sketch::{BLOCK, BlockRow, STRIDE, at_most_255, blocks};
-use super::wire::{Reader, SHORT_RECORD_BYTES};
+use super::runs::{Band, are_runs_with};
+use super::sketch::{BLOCK, BlockRow, STRIDE, blocks};
+use super::wire::{Reader, SHORT_RECORD_BYTES, read_short_record};
+use super::{LibraryInfo, ViewRecord};
 
 /// The parts of a body in the compact layout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compact<'a> {
-    pub(super) records: &'a [u8],
+    records: &'a [u8],
     ends: &'a [u8],
     sketches: Sketches<'a>,
     runs: &'a [u8],
@@ -67,73 +65,90 @@ impl<'a> Sketches<'a> {
         self.all.get(start..end).unwrap_or_default()
     }
 
-    /// The sketch of a view, to be compared with its runs.
-    fn beside(
+    /// The sketch of a view, to be compared with its runs; `counts` is empty before and after.
+    fn beside<'c>(
         &self,
         view: usize,
         info: &LibraryInfo,
-    ) -> Comparison<'a, impl Iterator<Item = usize> + use<'a>> {
-        let across = (info.canonical.size() / BLOCK).max(1);
+        counts: &'c mut BlockRow,
+    ) -> Comparison<'a, 'c, impl Iterator<Item = (usize, u8)> + use<'a>> {
+        let (sketch, padding) = self
+            .of(view)
+            .split_at_checked(self.places.len() / 2)
+            .unwrap_or_default();
+        let mut kept = self.places().zip(sketch.iter().copied());
         Comparison {
-            common: self.common.chunks_exact(across),
-            places: self.places().peekable(),
-            sketch: self.of(view).iter(),
-            across,
+            common: self.common,
+            next: kept.next().unwrap_or(NOT_KEPT),
+            kept,
+            across: (info.canonical.size() / BLOCK).max(1),
             row: 0,
             block: 0,
-            counts: BlockRow::EMPTY,
-            is_same: true,
+            counts,
+            is_same: padding.iter().all(|&padding| padding == 0),
         }
     }
 }
 
+/// No block has this number.
+const NOT_KEPT: (usize, u8) = (usize::MAX, 0);
+
 /// The sketch of a view beside its runs, block row by block row.
-struct Comparison<'a, P: Iterator<Item = usize>> {
-    common: slice::ChunksExact<'a, u8>,
-    places: Peekable<P>,
-    sketch: slice::Iter<'a, u8>,
+struct Comparison<'a, 'c, K: Iterator<Item = (usize, u8)>> {
+    /// What is left of the common blocks.
+    common: &'a [u8],
+    /// The next block that the sketch has and what it has of it, and those after it.
+    next: (usize, u8),
+    kept: K,
     across: usize,
     /// The block row that runs are gathered for, and the first block of it.
     row: usize,
     block: usize,
-    counts: BlockRow,
+    counts: &'c mut BlockRow,
     is_same: bool,
 }
 
-impl<'a, P: Iterator<Item = usize>> Comparison<'a, P> {
-    /// Adds a run; block rows above its own are whole by then.
-    #[inline(always)]
-    fn add(&mut self, row: usize, start: usize, end: usize) {
-        while self.row < row / BLOCK && self.is_same {
-            self.compare();
+impl<K: Iterator<Item = (usize, u8)>> Comparison<'_, '_, K> {
+    /// Adds a band; block rows above it are whole by then. Gives where the run ends that goes furthest.
+    fn add(&mut self, band: Band<'_>) -> usize {
+        let (mut rest, mut furthest) = (Some(band), 0);
+        while let Some(band) = rest {
+            let row = band.first_row / BLOCK;
+            while self.row < row && self.is_same {
+                self.compare();
+            }
+            let (own, below) = band.split_at_row((row + 1) * BLOCK);
+            furthest = furthest.max(self.counts.add(&own));
+            rest = below;
         }
-        self.counts.add(start, end);
+        furthest
     }
 
     fn compare(&mut self) {
-        let common = self.common.next();
-        let Some(common) = common else {
+        let Some((common, rest)) = self.common.split_at_checked(self.across) else {
             self.is_same = false;
             return;
         };
+        self.common = rest;
         let counts = self.counts.take(self.across);
-        for ((block, &common), count) in (self.block..).zip(common).zip(counts) {
-            let kept = match self.places.next_if_eq(&block) {
-                Some(_) => self.sketch.next().copied().filter(|_| common == 0),
-                None => Some(common),
-            };
-            self.is_same &= kept == Some(at_most_255(count));
+        let ((mut block, mut expected), mut differs) = (self.next, 0);
+        // What the sketch has of a block is nothing that all views have in common.
+        while let Some(count) = counts.get_mut(block.wrapping_sub(self.block)) {
+            differs |= core::mem::take(count) ^ expected;
+            (block, expected) = self.kept.next().unwrap_or(NOT_KEPT);
         }
+        self.next = (block, expected);
+        self.is_same &= differs == 0 && counts == common;
         self.row += 1;
         self.block += self.across;
     }
 
     /// Whether all of it is the same.
-    fn finish(mut self) -> bool {
-        while self.is_same && self.common.len() > 0 {
+    fn finish(&mut self) -> bool {
+        while self.is_same && !self.common.is_empty() {
             self.compare();
         }
-        self.is_same && self.places.next().is_none() && self.sketch.all(|&padding| padding == 0)
+        self.is_same && self.next == NOT_KEPT
     }
 }
 
@@ -161,16 +176,14 @@ impl<'a> Compact<'a> {
     /// Whether all runs stay in their frames and all sketches are those of their runs.
     pub(super) fn check(&self, info: &LibraryInfo) -> Result<(), LibraryError> {
         let views = info.grid.views();
-        let mut end = 0;
+        let (mut end, mut counts) = (0, BlockRow::EMPTY);
         for view in 0..views {
             let next = self.end(view);
-            let mut comparison = self.sketches.beside(view, info);
+            let mut comparison = self.sketches.beside(view, info, &mut counts);
             let runs = self.runs.get(end..next);
-            let are_runs = runs.is_some_and(|runs| {
-                are_runs_with(runs, info.canonical.size(), |row, start, end| {
-                    comparison.add(row, start, end);
-                })
-            });
+            let size = info.canonical.size();
+            let are_runs =
+                runs.is_some_and(|runs| are_runs_with(runs, size, |band| comparison.add(band)));
             if !are_runs {
                 return Err(LibraryError::Value("runs"));
             }
@@ -200,19 +213,11 @@ impl<'a> Compact<'a> {
     pub(super) fn sketches(&self) -> Sketches<'a> {
         self.sketches
     }
-}
 
-/// Rotations of a record, which the compact layout leaves to the grid.
-pub(super) fn read_record(
-    compact: &Compact<'_>,
-    info: &LibraryInfo,
-    view: usize,
-) -> super::ViewRecord {
-    let start = view.saturating_mul(SHORT_RECORD_BYTES);
-    let bytes = compact.records.get(start..).unwrap_or_default();
-    let rotations = match bytes.is_empty() {
-        true => [0.0; 2],
-        false => info.grid.rotations(view),
-    };
-    super::wire::read_short_record(&mut Reader::new(bytes), rotations)
+    /// The record of a view, whose rotations the compact layout leaves to the grid; zeros beyond the last.
+    pub(super) fn record(&self, view: usize, rotations: [f64; 2]) -> ViewRecord {
+        let start = view.saturating_mul(SHORT_RECORD_BYTES);
+        let bytes = self.records.get(start..).unwrap_or_default();
+        read_short_record(&mut Reader::new(bytes), rotations)
+    }
 }

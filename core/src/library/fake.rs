@@ -4,12 +4,11 @@ use proptest::prelude::*;
 use std::vec::Vec;
 
 use super::pack::{pack, packed_most};
-use super::wire::{
-    Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
-};
+use super::wire::{Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, write_header, write_record};
 use super::{Assembly, Library, LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
+use crate::checksum::checksum;
 use crate::image::mask::{Mask, MaskMut, Word};
 
 /// A plain library of these canonical masks: `columns` views along x.

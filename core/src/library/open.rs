@@ -1,15 +1,16 @@
 //! Opening a library: everything is checked once, afterwards nothing can fail.
 
-use super::compact::{self, Compact, Sketches};
+use super::compact::{Compact, Sketches};
 use super::error::{DISTANCE, LibraryError, X_ROTATIONS, Y_ROTATIONS};
 use super::info::{LibraryInfo, ViewGrid, ViewRecord};
-use super::runs::{bands, draw_runs, overlap, spans};
+use super::runs::{bands, draw_runs, overlap, rows, spans};
 use super::wire::{
     Body, HEADER_BYTES, HEADER_CRC_AT, MAGIC, PLAIN_VERSION, RECORD_BYTES, Reader, VERSION,
-    checksum, read_grid, read_record,
+    read_grid, read_record,
 };
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
+use crate::checksum::checksum;
 use crate::image::mask::{MaskMut, WORD_BITS, Word};
 
 /// A library read in place.
@@ -128,7 +129,10 @@ impl<'a> Library<'a> {
                 let start = view.saturating_mul(RECORD_BYTES);
                 read_record(records.get(start..).unwrap_or_default())
             }
-            Views::Compact(compact) => compact::read_record(compact, &self.info, view),
+            Views::Compact(compact) if view < self.views() => {
+                compact.record(view, self.info.grid.rotations(view))
+            }
+            Views::Compact(_) => ViewRecord::default(),
         }
     }
 
@@ -177,7 +181,7 @@ impl<'a> Library<'a> {
             }
             Views::Compact(compact) => {
                 let row_words = self.info.canonical.size() / WORD_BITS;
-                let rows = bands(compact.runs(view)).flat_map(|band| band.rows());
+                let rows = rows(compact.runs(view));
                 rows.map(|(row, pieces)| {
                     let row = canonical.get(row * row_words..(row + 1) * row_words);
                     let row = row.unwrap_or_default();
@@ -233,19 +237,19 @@ impl<'a> Library<'a> {
 
     fn check_records(&self) -> Result<(), LibraryError> {
         for view in 0..self.views() {
-            let record = self.record(view);
-            let (x, y) = self.info.grid.place(view);
-            let agrees = record.x_deg == self.info.grid.x.at(x as f64)
-                && record.y_deg == self.info.grid.y.at(y as f64);
-            let possible = SCALES.contains(&record.scale)
-                && (0.0..=1.0).contains(&record.elongation)
-                && record.angle.abs() <= 2.0
-                && record.offset.iter().all(|value| value.abs() < 1e6)
-                && record.area > 0;
+            let (record, agrees) = match &self.views {
+                Views::Plain { .. } => {
+                    let record = self.record(view);
+                    let rotations = [record.x_deg, record.y_deg];
+                    (record, rotations == self.info.grid.rotations(view))
+                }
+                // They are the grid's.
+                Views::Compact(compact) => (compact.record(view, [0.0; 2]), true),
+            };
             if !agrees {
                 return Err(LibraryError::Value("view rotation"));
             }
-            if !possible {
+            if !is_possible(&record) {
                 return Err(LibraryError::Value("view record"));
             }
         }
@@ -253,9 +257,25 @@ impl<'a> Library<'a> {
     }
 }
 
-/// Scales that a view can have: from a silhouette that fills the largest frame down to one of a pixel, and more room than
-/// either takes.
-const SCALES: core::ops::RangeInclusive<f64> = 1e-4..=1e4;
+fn is_possible(record: &ViewRecord) -> bool {
+    // A scale is positive: that of a silhouette that fills the largest frame down to one of a pixel, and more room than either takes.
+    within(record.scale, 1e4)
+        && !within(record.scale, 1e-4f64.next_down())
+        && record.scale.is_sign_positive()
+        && (0.0..=1.0).contains(&record.elongation)
+        && within(record.angle, 2.0)
+        && record
+            .offset
+            .iter()
+            .all(|&value| within(value, 1e6f64.next_down()))
+        && record.area > 0
+}
+
+/// Whether a number lies no further from zero than a positive one. By its bits: comparing what they mean takes a processor
+/// without numbers of 64 bits several times as long.
+fn within(value: f64, most: f64) -> bool {
+    value.abs().to_bits() <= most.to_bits()
+}
 
 /// Little-endian words of canonical bits.
 fn words(bytes: &[u8]) -> impl Iterator<Item = Word> + '_ {

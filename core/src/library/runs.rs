@@ -137,17 +137,39 @@ pub(crate) struct Band<'a> {
 }
 
 impl<'a> Band<'a> {
+    /// The rows above and from a row on; all of them above where there are no others.
+    pub(super) fn split_at_row(self, row: usize) -> (Self, Option<Self>) {
+        let above = self
+            .per_row
+            .saturating_mul(row.saturating_sub(self.first_row));
+        match self.pieces.split_at_checked(above) {
+            Some((above, below)) if !below.is_empty() => {
+                let below = Self {
+                    first_row: row,
+                    pieces: below,
+                    ..self
+                };
+                (
+                    Self {
+                        pieces: above,
+                        ..self
+                    },
+                    Some(below),
+                )
+            }
+            _ => (self, None),
+        }
+    }
+
     /// Each row's number and runs.
     #[inline(always)]
-    pub(crate) fn rows(self) -> impl Iterator<Item = (usize, &'a [[u8; 2]])> {
-        // Never none in a row.
-        let (mut rest, per_row) = (self.pieces, self.per_row.max(1));
-        let rows = core::iter::from_fn(move || {
-            let (own, others) = rest.split_at_checked(per_row)?;
-            rest = others;
-            Some(own)
-        });
-        (self.first_row..).zip(rows)
+    pub(crate) fn rows(self) -> Rows<'a> {
+        Rows {
+            bands: bands(&[]),
+            row: self.first_row,
+            per_row: self.per_row,
+            rest: self.pieces,
+        }
     }
 }
 
@@ -167,9 +189,9 @@ impl<'a> Iterator for Bands<'a> {
     #[inline(always)]
     fn next(&mut self) -> Option<Band<'a>> {
         let (&[a, b, c, d, e, f], rest) = self.rest.split_first_chunk::<BAND_BYTES>()?;
-        let [first_row, rows, per_row] =
-            [[a, b], [c, d], [e, f]].map(|two| usize::from(u16::from_le_bytes(two)));
-        if !(1..=LONGEST_ROW).contains(&per_row) {
+        let number = |two| usize::from(u16::from_le_bytes(two));
+        let (first_row, rows, per_row) = (number([a, b]), number([c, d]), number([e, f]));
+        if per_row == 0 || per_row > LONGEST_ROW {
             return None;
         }
         let (band, rest) = rest.split_at_checked(2 * rows * per_row)?;
@@ -179,6 +201,42 @@ impl<'a> Iterator for Bands<'a> {
             per_row,
             pieces: band.as_chunks().0,
         })
+    }
+}
+
+/// Number and runs of each row of a view, from top to bottom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rows<'a> {
+    bands: Bands<'a>,
+    row: usize,
+    per_row: usize,
+    /// Of the band that is at hand.
+    rest: &'a [[u8; 2]],
+}
+
+pub(crate) fn rows(bytes: &[u8]) -> Rows<'_> {
+    Rows {
+        bands: bands(bytes),
+        row: 0,
+        per_row: 1,
+        rest: &[],
+    }
+}
+
+impl<'a> Iterator for Rows<'a> {
+    type Item = (usize, &'a [[u8; 2]]);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some((own, rest)) = self.rest.split_at_checked(self.per_row) {
+                let row = self.row;
+                (self.row, self.rest) = (row + 1, rest);
+                return Some((row, own));
+            }
+            let band = self.bands.next()?;
+            (self.row, self.per_row, self.rest) = (band.first_row, band.per_row, band.pieces);
+        }
     }
 }
 
@@ -197,28 +255,25 @@ pub(crate) fn spans(pieces: &[[u8; 2]]) -> impl Iterator<Item = (usize, usize)> 
 /// which end within it, and nothing behind.
 #[cfg(test)]
 pub(super) fn are_runs(bytes: &[u8], size: usize) -> bool {
-    are_runs_with(bytes, size, |_, _, _| ())
+    are_runs_with(bytes, size, |band| {
+        let ends = band.rows().flat_map(|(_, pieces)| spans(pieces));
+        ends.map(|(_, end)| end).max().unwrap_or(0)
+    })
 }
 
-/// The same; `visit` gets the row, the start and the end of each run up to the first that is none.
-pub(super) fn are_runs_with(
-    bytes: &[u8],
+/// The same; `visit` gets each band up to the first that is none, and gives where the run ends that goes furthest.
+pub(super) fn are_runs_with<'a>(
+    bytes: &'a [u8],
     size: usize,
-    mut visit: impl FnMut(usize, usize, usize),
+    mut visit: impl FnMut(Band<'a>) -> usize,
 ) -> bool {
     let mut bands = bands(bytes);
     let mut next_row = 0;
     for band in &mut bands {
         let rows = band.pieces.len() / band.per_row;
         let inside = band.first_row >= next_row && band.first_row + rows <= size;
-        let mut ends = |(row, pieces)| {
-            spans(pieces).all(|(start, end)| {
-                visit(row, start, end);
-                end <= size
-            })
-        };
         let few = band.per_row <= row_most(size);
-        if rows == 0 || !few || !inside || !band.rows().all(&mut ends) {
+        if rows == 0 || !few || !inside || visit(band) > size {
             return false;
         }
         next_row = band.first_row + rows;
@@ -228,7 +283,7 @@ pub(super) fn are_runs_with(
 
 /// Sets the pixels of the runs in a mask.
 pub(super) fn draw_runs(bytes: &[u8], mask: &mut MaskMut<'_>) {
-    for (row, pieces) in bands(bytes).flat_map(Band::rows) {
+    for (row, pieces) in rows(bytes) {
         for (start, end) in spans(pieces) {
             mask.fill_span(row, start as i64, end as i64);
         }
@@ -238,11 +293,11 @@ pub(super) fn draw_runs(bytes: &[u8], mask: &mut MaskMut<'_>) {
 /// Number of pixels set in both of two views.
 pub(super) fn overlap(a: &[u8], b: &[u8]) -> u32 {
     let mut sum = 0;
-    let mut rows = bands(a).flat_map(Band::rows);
-    let mut ours = rows.next();
-    for (row, theirs) in bands(b).flat_map(Band::rows) {
+    let mut rows_of_a = rows(a);
+    let mut ours = rows_of_a.next();
+    for (row, theirs) in rows(b) {
         while ours.is_some_and(|(other, _)| other < row) {
-            ours = rows.next();
+            ours = rows_of_a.next();
         }
         if let Some((_, ours)) = ours.filter(|&(other, _)| other == row) {
             sum += common(ours, theirs);
@@ -260,10 +315,13 @@ fn common(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
     if a.len() * b.len() > FEW_PAIRS {
         return merged(a, b);
     }
-    let pairs = spans(a).flat_map(|ours| spans(b).map(move |theirs| (ours, theirs)));
-    let common = pairs
-        .map(|((start, end), (first, last))| end.min(last).saturating_sub(start.max(first)) as u32);
-    common.sum()
+    let mut common = 0;
+    for (start, end) in spans(a) {
+        for (first, last) in spans(b) {
+            common += end.min(last).saturating_sub(start.max(first));
+        }
+    }
+    common as u32
 }
 
 /// The same of rows with many runs.
@@ -345,8 +403,7 @@ mod tests {
         ) {
             let mut drawn = [0; words_needed(32, 32)];
             draw_runs(&bytes, &mut MaskMut::new(&mut drawn, 32, 32).expect("fits"));
-            let pixels: usize = bands(&bytes)
-                .flat_map(Band::rows)
+            let pixels: usize = rows(&bytes)
                 .flat_map(|(_, pieces)| spans(pieces))
                 .map(|(start, end)| end - start)
                 .sum();

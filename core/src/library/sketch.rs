@@ -6,7 +6,7 @@
 //! of 8 (0.99) take three times the bytes for one view less; blocks of 32 (0.88 to 0.92) need two
 //! bytes each.
 
-use super::runs::WIDEST_FRAME;
+use super::runs::{Band, WIDEST_FRAME};
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Mask, Word};
 
@@ -30,58 +30,72 @@ pub(crate) fn at_most_255(count: u16) -> u8 {
     count.min(255) as u8
 }
 
-/// Set pixels of the blocks of one row of blocks, gathered from runs: each changes four numbers, however long it is.
+/// Set pixels of the blocks of one row of blocks, gathered from runs: each changes two numbers, however long it is.
 pub(super) struct BlockRow {
-    /// Runs that begin in a block less those that end there, and the pixels before these places in the block; both modulo 2^16, which no
-    /// count of pixels reaches.
-    begun: [u16; WIDEST + 1],
-    before: [u16; WIDEST + 1],
+    /// For each block the columns at which runs begin in it less those at which runs end, and as many times [`TURN`]; modulo 2^32.
+    turns: [u32; PLACES],
+    /// What was taken last.
+    counts: [u8; WIDEST],
 }
+
+/// More than blocks across: where a run ends that is none is told afterwards, and until then its number is cut off.
+const PLACES: usize = 2 * WIDEST;
+/// Beside a sum of columns the number of them: within one block runs begin and end by turns, so that neither of the
+/// two sums passes 15 bits.
+const TURN: u32 = 1 << 16;
 
 impl BlockRow {
     /// Nothing is set.
     pub(super) const EMPTY: Self = Self {
-        begun: [0; WIDEST + 1],
-        before: [0; WIDEST + 1],
+        turns: [0; PLACES],
+        counts: [0; WIDEST],
     };
 
-    /// Adds the pixels of a run.
-    #[inline(always)]
-    pub(super) fn add(&mut self, start: usize, end: usize) {
-        self.turn(start, 1);
-        self.turn(end, u16::MAX);
-    }
-
-    #[inline(always)]
-    fn turn(&mut self, at: usize, sign: u16) {
-        let (begun, before) = (
-            self.begun.get_mut(at / BLOCK),
-            self.before.get_mut(at / BLOCK),
-        );
-        if let (Some(begun), Some(before)) = (begun, before) {
-            *begun = begun.wrapping_add(sign);
-            *before = before.wrapping_add(sign.wrapping_mul((at % BLOCK) as u16));
+    /// Adds the pixels of rows within the row of blocks and gives where the run ends that goes furthest.
+    #[cfg_attr(target_os = "none", inline(never))]
+    pub(super) fn add(&mut self, band: &Band<'_>) -> usize {
+        let mut furthest = TURN;
+        for (_, row) in band.rows() {
+            let mut at = TURN;
+            for &[gap, pixels] in row {
+                at += u32::from(gap);
+                let begun = self.at(at);
+                *begun = begun.wrapping_add(at);
+                at += u32::from(pixels);
+                let ended = self.at(at);
+                *ended = ended.wrapping_sub(at);
+            }
+            furthest = furthest.max(at);
         }
+        (furthest - TURN) as usize
     }
 
-    /// The set pixels of the first `across` blocks, left to right, and nothing is set afterwards.
-    pub(super) fn take(&mut self, across: usize) -> impl Iterator<Item = u16> {
+    #[inline(always)]
+    fn at(&mut self, at: u32) -> &mut u32 {
+        &mut self.turns[at as usize / BLOCK % PLACES]
+    }
+
+    /// The set pixels of the first `across` blocks, left to right, at most 255; and nothing is set afterwards.
+    pub(super) fn take(&mut self, across: usize) -> &mut [u8] {
+        let counts = self.counts.get_mut(..across).unwrap_or_default();
+        // How many runs go on from the block before, and where the block ends.
+        let (mut open, mut end) = (0u32, TURN);
+        for (count, turns) in counts.iter_mut().zip(&mut self.turns) {
+            let sum = core::mem::take(turns);
+            // A negative sum of columns has borrowed one.
+            let begun = ((sum.wrapping_add(TURN / 2) as i32) >> 16) as u32;
+            end += BLOCK as u32;
+            let before = open.wrapping_mul(BLOCK as u32);
+            open = open.wrapping_add(begun);
+            // Each that begins has the pixels from its column to the block's end.
+            let pixels = before.wrapping_add(begun.wrapping_mul(end));
+            *count = at_most_255(pixels.wrapping_sub(sum) as u16);
+        }
         // Runs that end with the frame end there.
-        for beyond in [&mut self.begun, &mut self.before] {
-            beyond
-                .iter_mut()
-                .skip(across)
-                .take(1)
-                .for_each(|number| *number = 0);
+        if let Some(beyond) = self.turns.get_mut(across) {
+            *beyond = 0;
         }
-        let mut open = 0u16;
-        let blocks = self.begun.iter_mut().zip(&mut self.before).take(across);
-        blocks.map(move |(begun, before)| {
-            open = open.wrapping_add(*begun);
-            let count = (BLOCK as u16).wrapping_mul(open).wrapping_sub(*before);
-            (*begun, *before) = (0, 0);
-            count
-        })
+        counts
     }
 }
 
@@ -118,27 +132,40 @@ fn ones_of_halves(word: Word) -> Word {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Rows of runs that end within `across` blocks, and the set pixels of each block.
+    fn rows(across: usize, per_row: usize) -> impl Strategy<Value = (Vec<[u8; 2]>, Vec<u16>)> {
+        let ends = proptest::collection::vec(0..=across * BLOCK, 2 * per_row);
+        proptest::collection::vec(ends, 0..BLOCK).prop_map(move |rows| {
+            let (mut pieces, mut counts) = (Vec::new(), std::vec![0u16; across]);
+            for mut ends in rows {
+                ends.sort_unstable();
+                let mut at = 0;
+                for &[start, end] in ends.as_chunks::<2>().0 {
+                    // What a byte holds.
+                    let start = start.min(at + 255);
+                    let end = end.clamp(start, start + 255);
+                    pieces.push([(start - at) as u8, (end - start) as u8]);
+                    (start..end).for_each(|pixel| counts[pixel / BLOCK] += 1);
+                    at = end;
+                }
+            }
+            (pieces, counts)
+        })
+    }
 
     proptest! {
         #[test]
         fn runs_fill_the_blocks_that_their_pixels_are_in(
-            rows in proptest::collection::vec(proptest::collection::vec(0..=1024usize, 0..40), 0..16),
-            across in 1..=WIDEST,
+            (across, per_row, (pieces, counts)) in (1..=WIDEST, 1..6usize)
+                .prop_flat_map(|(across, per_row)| (Just(across), Just(per_row), rows(across, per_row)))
         ) {
-            let (mut row_of_blocks, mut naive) = (BlockRow::EMPTY, [0u16; WIDEST]);
-            for ends in rows {
-                let mut ends: std::vec::Vec<usize> = ends.iter().map(|&end| end.min(across * BLOCK)).collect();
-                ends.sort_unstable();
-                for &[start, end] in ends.as_chunks::<2>().0 {
-                    row_of_blocks.add(start, end);
-                    (start..end).for_each(|pixel| naive[pixel / BLOCK] += 1);
-                }
-            }
-            for empty in [false, true] {
-                let counts: std::vec::Vec<u16> = row_of_blocks.take(across).collect();
-                let expected = if empty { [0; WIDEST] } else { naive };
-                prop_assert_eq!(&counts[..across], &expected[..across]);
-            }
+            let mut row_of_blocks = BlockRow::EMPTY;
+            row_of_blocks.add(&Band { first_row: 0, per_row, pieces: &pieces });
+            let naive: Vec<u8> = counts.into_iter().map(at_most_255).collect();
+            prop_assert_eq!(&*row_of_blocks.take(across), &naive[..]);
+            prop_assert_eq!(&*row_of_blocks.take(across), &std::vec![0; across][..]);
         }
     }
 }

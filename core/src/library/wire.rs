@@ -7,9 +7,8 @@
 //! (`size * size / 8` bytes, row by row, least significant bit leftmost). Version 1, compact: see
 //! `compact.rs`.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
-
 use super::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
+use crate::checksum::checksum;
 
 /// First eight bytes of the file.
 pub(crate) const MAGIC: [u8; 8] = *b"FLUOROPL";
@@ -29,18 +28,9 @@ const DIGEST_AT: usize = 136;
 /// Where the header's own checksum stands.
 pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
 
-const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
-
 /// The model's digest in the bytes of a library, where they are as long as a header.
 pub(crate) fn digest_in(bytes: &[u8]) -> Option<&[u8; 32]> {
     bytes.get(DIGEST_AT..HEADER_BYTES)?.first_chunk()
-}
-
-/// CRC-32 of parts that follow one another.
-pub(super) fn checksum<const N: usize>(parts: [&[u8]; N]) -> u32 {
-    let mut digest = CRC.digest();
-    parts.iter().for_each(|part| digest.update(part));
-    digest.finalize()
 }
 
 /// Reads numbers one after another; zero beyond the end, so no index can be wrong.
@@ -53,34 +43,35 @@ impl<'a> Reader<'a> {
         Self { rest: bytes }
     }
 
+    fn next<const N: usize>(&mut self) -> Option<&'a [u8; N]> {
+        let (head, rest) = self.rest.split_first_chunk()?;
+        self.rest = rest;
+        Some(head)
+    }
+
     pub(super) fn bytes<const N: usize>(&mut self) -> [u8; N] {
-        match self.rest.split_first_chunk() {
-            Some((head, rest)) => {
-                self.rest = rest;
-                *head
-            }
-            None => [0; N],
-        }
+        self.next().copied().unwrap_or([0; N])
     }
 
     pub(super) fn u16(&mut self) -> u16 {
-        u16::from_le_bytes(self.bytes())
+        self.next().map_or(0, |&two| u16::from_le_bytes(two))
     }
 
     pub(super) fn u32(&mut self) -> u32 {
-        u32::from_le_bytes(self.bytes())
+        self.next().map_or(0, |&four| u32::from_le_bytes(four))
     }
 
+    /// Two words: eight bytes at once would be copied first.
     pub(super) fn u64(&mut self) -> u64 {
-        u64::from_le_bytes(self.bytes())
+        u64::from(self.u32()) | u64::from(self.u32()) << 32
     }
 
     pub(super) fn f32(&mut self) -> f32 {
-        f32::from_le_bytes(self.bytes())
+        f32::from_bits(self.u32())
     }
 
     pub(super) fn f64(&mut self) -> f64 {
-        f64::from_le_bytes(self.bytes())
+        f64::from_bits(self.u64())
     }
 }
 

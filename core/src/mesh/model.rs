@@ -81,10 +81,20 @@ impl<'a> Model<'a> {
         self.mesh.vertices()
     }
 
-    /// Triangles, three vertex indices each.
+    /// Triangles, three vertex indices each; none of a model that was kept without them ([`Self::for_each_triangle`]).
     #[must_use]
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         self.mesh.triangles()
+    }
+
+    /// Calls `visit` with each triangle that covers anything: those of the mesh, or where it was kept without them
+    /// ([`crate::implant::ImplantFile`]) those that its edges are of.
+    pub fn for_each_triangle(&self, mut visit: impl FnMut(&[u32; 3])) {
+        let edges = self.edges.as_ref();
+        match edges.and_then(Edges::packed) {
+            Some((packed, _)) if self.triangles().is_empty() => packed.for_each_triangle(visit),
+            _ => self.triangles().iter().for_each(&mut visit),
+        }
     }
 
     /// Where the model lies in its own coordinates.

@@ -132,14 +132,23 @@ impl<'a> Mesh<'a> {
         if triangles.is_empty() {
             return Err(MeshError::Empty);
         }
+        let bounds = Self::check_vertices(vertices)?;
+        let known = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < vertices.len());
+        match triangles.iter().position(|t| !known(t)) {
+            Some(index) => Err(MeshError::Index(index)),
+            None => Ok(bounds),
+        }
+    }
+
+    /// Checks the vertices alone.
+    ///
+    /// # Errors
+    /// [`MeshError`].
+    pub(crate) fn check_vertices(vertices: &[[f32; 3]]) -> Result<Bounds, MeshError> {
         // A NaN fails the comparison too.
         let possible = |v: &[f32; 3]| v.iter().all(|x| x.abs() <= 10_000.0);
         if let Some(index) = vertices.iter().position(|v| !possible(v)) {
             return Err(MeshError::Vertex(index));
-        }
-        let known = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < vertices.len());
-        if let Some(index) = triangles.iter().position(|t| !known(t)) {
-            return Err(MeshError::Index(index));
         }
         let bounds = Bounds::of(vertices);
         if bounds.radius == 0.0 {

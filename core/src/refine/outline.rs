@@ -214,7 +214,7 @@ impl<'m> Around<'m> {
             *bits = bits_round(row, column);
         }
         let mut slope = [0i32; 2];
-        for ((down, &bits), tent) in window.iter().enumerate().zip(TENT) {
+        for ((down, &bits), tent) in window.iter().enumerate().zip(&TENT) {
             let [sum, right] = ROWS.get(bits as usize).copied().unwrap_or_default();
             let (sum, right) = (i32::from(sum), i32::from(right));
             slope[0] -= tent * right;

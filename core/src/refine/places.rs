@@ -20,6 +20,9 @@ pub(super) struct Places<'p> {
     rows: Range<usize>,
 }
 
+/// Samples of a row that are sooner looked at than searched.
+const FEW: usize = 6;
+
 impl<'p> Places<'p> {
     /// No sample yet in some rows of a frame. `memory` is [`places_needed`] numbers of any value.
     pub(super) fn new(memory: &'p mut [u16], rows: Range<usize>) -> Self {
@@ -53,12 +56,19 @@ impl<'p> Places<'p> {
         };
         let own = samples.get_mut(usize::from(first)..usize::from(end));
         let own = own.unwrap_or_default();
-        let first = own.partition_point(|sample| usize::from(sample.column) < columns.start);
+        // Most rows have a few, some have all of a flat side.
+        let first = match own.len() {
+            ..=FEW => 0,
+            _ => own.partition_point(|sample| usize::from(sample.column) < columns.start),
+        };
         for sample in own.get_mut(first..).unwrap_or_default() {
-            if usize::from(sample.column) >= columns.end {
+            let column = usize::from(sample.column);
+            if column >= columns.end {
                 return;
             }
-            visit(sample);
+            if column >= columns.start {
+                visit(sample);
+            }
         }
     }
 }

@@ -54,7 +54,7 @@ pub(super) fn crossing_along(
     let direction = if inside { 1 } else { -1 };
     let walk = Walk::of(silhouette, sample, normal, direction);
     let mut value = if inside { WHOLE } else { 0 };
-    for step in 1..=steps {
+    for step in 1..steps + 1 {
         let Some(next) = walk.coverage(step) else {
             return Residual::Unknown;
         };
@@ -104,7 +104,7 @@ impl<'w, 's> Walk<'w, 's> {
             column: i32::from(sample.column),
             row: i32::from(sample.row),
             // Exact but for what is cut off: 24 bits times a power of two.
-            step: normal.map(|x| (x * scale) as i32),
+            step: [(normal[0] * scale) as i32, (normal[1] * scale) as i32],
             columns: last(mask.width()),
             rows: last(mask.height()),
         }
@@ -114,7 +114,7 @@ impl<'w, 's> Walk<'w, 's> {
     /// four is unknown.
     #[inline]
     fn coverage(&self, steps: i32) -> Option<i32> {
-        let [right, down] = self.step.map(|step| step * steps);
+        let (right, down) = (self.step[0] * steps, self.step[1] * steps);
         let (left, above) = (self.column + (right >> PLACES), self.row + (down >> PLACES));
         // Below zero is beyond too.
         if left as u32 >= self.columns || above as u32 >= self.rows {

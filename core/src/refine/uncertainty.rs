@@ -227,7 +227,7 @@ impl Sums {
                 let mut sum = own.map(|value| value * sample.weight * covariance.bins[0] / 2.0);
                 for (number, other, bin) in after(border, index, reach) {
                     let weight = other.weight * covariance.at(bin);
-                    for (sum, value) in sum.iter_mut().zip(jacobians.of(number)) {
+                    for (sum, value) in sum.iter_mut().zip(&jacobians.of(number)) {
                         *sum += weight * value;
                     }
                 }

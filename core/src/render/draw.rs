@@ -109,15 +109,14 @@ pub(crate) fn for_each_span(
     wanted: impl Fn([Projected; 3]) -> bool,
     mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
 ) {
-    for triangle in model.triangles() {
+    model.for_each_triangle(|triangle| {
         let corners = triangle.map(&mut image);
-        if !wanted(corners) {
-            continue;
+        if wanted(corners) {
+            triangle_spans(corners, height, |row, from, to| {
+                visit(triangle, row, from, to)
+            });
         }
-        triangle_spans(corners, height, |row, from, to| {
-            visit(triangle, row, from, to)
-        });
-    }
+    });
 }
 
 /// What [`render`] left in its working memory of a model at a pose.

@@ -146,7 +146,12 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
 
     /// At most a view's unmatched pixels.
     fn at_least(&self, view: usize, reversed: bool) -> u32 {
-        let bound = self.bounds.get(self.place(view, reversed));
+        self.at_least_at(self.place(view, reversed))
+    }
+
+    /// The same of a place.
+    fn at_least_at(&self, place: usize) -> u32 {
+        let bound = self.bounds.get(place);
         bound.map_or(u32::MAX, |bound| bound & !EXACT)
     }
 
@@ -188,11 +193,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         };
         best.offer(self.candidate(first));
         for place in 0..places {
-            let bound = self
-                .bounds
-                .get(place)
-                .map_or(u32::MAX, |bound| bound & !EXACT);
-            if bound <= best.limit() && place != first {
+            if self.at_least_at(place) <= best.limit() && place != first {
                 let candidate = self.candidate(place);
                 best.offer(candidate);
             }
@@ -237,8 +238,11 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             }
         }
         for place in 0..places {
+            if self.at_least_at(place) > minima.limit() {
+                continue;
+            }
             let (view, reversed) = self.apart(place);
-            if self.at_least(view, reversed) <= minima.limit() && self.is_minimum(view, reversed) {
+            if self.is_minimum(view, reversed) {
                 let candidate = self.candidate(place);
                 minima.offer(candidate);
             }
@@ -251,9 +255,12 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         let mut least: Vec<(u32, usize), DESCENTS> = Vec::new();
         let mut limit = most;
         for place in 0..scores_needed(self.library.views()) {
+            let bound = self.at_least_at(place);
+            if bound > limit {
+                continue;
+            }
             let (view, reversed) = self.apart(place);
-            let bound = self.at_least(view, reversed);
-            if bound <= limit && self.is_minimum_of_bounds(view, reversed) {
+            if self.is_minimum_of_bounds(view, reversed) {
                 keep(&mut least, (bound, place), |&(bound, _)| bound);
                 if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
                     limit = most.min(last);
@@ -292,8 +299,8 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn is_minimum(&mut self, view: usize, reversed: bool) -> bool {
         // Where a neighbour is known to beat even the bound, the view need not be compared.
         let bound = self.at_least(view, reversed);
-        let grid = self.library.info().grid;
-        let beaten = neighbours(&grid, view).any(|neighbour| {
+        let grid = &self.library.info().grid;
+        let beaten = neighbours(grid, view).any(|neighbour| {
             let known = self.known(neighbour, reversed);
             known.is_some_and(|known| known < bound)
         });
@@ -301,7 +308,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return false;
         }
         // Otherwise the likeliest neighbour is compared first: it beats other views around it, too.
-        let least = neighbours(&grid, view).min_by_key(|&near| self.at_least(near, reversed));
+        let least = neighbours(grid, view).min_by_key(|&near| self.at_least(near, reversed));
         let beaten = least.is_some_and(|least| {
             self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
         });
@@ -312,9 +319,9 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     /// the first beats.
     fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
         let score = self.score(view, reversed);
-        let grid = self.library.info().grid;
+        let library = self.library;
         let key = |&neighbour: &usize| (self.at_least(neighbour, reversed), neighbour);
-        let near: Vec<usize, 8> = smallest(neighbours(&grid, view), key);
+        let near: Vec<usize, 8> = smallest(neighbours(&library.info().grid, view), key);
         near.iter().copied().find(|&neighbour| {
             self.at_least(neighbour, reversed) <= score
                 && (self.score(neighbour, reversed), neighbour) < (score, view)

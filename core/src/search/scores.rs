@@ -46,21 +46,59 @@ pub const fn scores_needed(views: usize) -> usize {
     2 * views
 }
 
-/// The eight views around a view of a grid, or as many as there are.
-pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> impl Iterator<Item = usize> + use<> {
-    let grid = *grid;
+/// The eight views around a view of a grid, or as many as there are, row by row.
+pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> Neighbours {
     let (x, y) = grid.place(view);
-    let columns = x.saturating_sub(1)..=(x + 1).min(grid.x.count - 1);
+    let last = grid.y.count.saturating_sub(1);
     // A row before the first is the last where the grid goes all around, else there is none.
-    let rows = [y.checked_sub(1), Some(y), Some(y + 1)].map(|row| match row {
-        Some(row) if row < grid.y.count => Some(row),
-        None if grid.is_around() => Some(grid.y.count - 1),
-        Some(_) if grid.is_around() => Some(0),
-        _ => None,
-    });
-    let rows = rows.into_iter().flatten();
-    rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
-        .filter(move |&neighbour| neighbour != view)
+    let around = (y == 0 || y == last) && grid.is_around();
+    let above = y.checked_sub(1).or(around.then_some(last));
+    let below = if y < last {
+        Some(y + 1)
+    } else {
+        around.then_some(0)
+    };
+    let left = x.saturating_sub(1);
+    Neighbours {
+        view,
+        starts: [above, Some(y), below].map(|row| row.map_or(NO_ROW, |row| grid.view(left, row))),
+        row: 0,
+        column: 0,
+        columns: (x + 2).min(grid.x.count) - left,
+    }
+}
+
+/// Where a row starts that there is not.
+const NO_ROW: usize = usize::MAX;
+
+/// See [`neighbours`].
+#[derive(Clone, Debug)]
+pub(crate) struct Neighbours {
+    view: usize,
+    /// The first neighbour of each row.
+    starts: [usize; 3],
+    row: usize,
+    column: usize,
+    columns: usize,
+}
+
+impl Iterator for Neighbours {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        loop {
+            let start = *self.starts.get(self.row)?;
+            if self.column == self.columns || start == NO_ROW {
+                (self.row, self.column) = (self.row + 1, 0);
+                continue;
+            }
+            let neighbour = start + self.column;
+            self.column += 1;
+            if neighbour != self.view {
+                return Some(neighbour);
+            }
+        }
+    }
 }
 
 impl<'a> Scores<'a> {

@@ -88,6 +88,7 @@ mod dark_regions;
 pub mod one_click;
 #[cfg(feature = "alloc")]
 mod places_buffers;
+pub mod reduced;
 pub mod seeds;
 pub mod shapes;
 pub mod whole_frame;

@@ -7,6 +7,7 @@ use fluoropose::image::mask::Word;
 use fluoropose::locate::Workspace;
 use fluoropose::memory::grow;
 
+use crate::reduced::{ReducedMemory, ReducedPixels, reduced_needed};
 use crate::seeds::seeds_needed;
 use crate::shapes::{ShapeMemory, shapes_needed};
 use crate::whole_frame::PlacesMemory;
@@ -19,6 +20,8 @@ pub struct PlacesBuffers {
     depths: Vec<u16>,
     numbers: Vec<u32>,
     words: Vec<Word>,
+    reduced: Vec<u16>,
+    unknown: Vec<Word>,
 }
 
 impl PlacesBuffers {
@@ -30,6 +33,9 @@ impl PlacesBuffers {
         grow(&mut self.depths, needs.cells);
         grow(&mut self.numbers, needs.numbers);
         grow(&mut self.words, needs.words);
+        let needs = reduced_needed(camera);
+        grow(&mut self.reduced, needs.pixels);
+        grow(&mut self.unknown, needs.words);
         PlacesMemory {
             sums: &mut self.sums,
             shapes: ShapeMemory {
@@ -39,6 +45,19 @@ impl PlacesBuffers {
                 words: &mut self.words,
                 workspace,
             },
+            reduced: ReducedMemory {
+                pixels: &mut self.reduced,
+                unknown: &mut self.unknown,
+            },
+        }
+    }
+
+    /// What [`crate::whole_frame::WholeFrame::new`] wrote for its steps.
+    #[must_use]
+    pub fn reduced(&self) -> ReducedPixels<'_> {
+        ReducedPixels {
+            pixels: &self.reduced,
+            unknown: &self.unknown,
         }
     }
 }

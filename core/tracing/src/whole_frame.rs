@@ -14,11 +14,16 @@ use heapless::Vec;
 use crate::one_click::{
     Answer, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Progress, Prompt,
 };
+use crate::reduced::{ReducedMemory, ReducedPixels, Reduction};
 use crate::seeds::{SEEDS, expected_size, seeds};
 use crate::shapes::{SHAPES, ShapeMemory, shapes};
 
 /// Most places that are tried.
 const PLACES: usize = SHAPES + SEEDS;
+/// Of places that are merely dark so many are tried, those whose regions look most like the component: where they lie all are looked at in
+/// passing, which takes about such a part of what it takes to try one.
+const TRIED: usize = 4;
+const PASSING: f64 = 0.15;
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
 /// What is asked of a pose that nobody pointed at.
@@ -61,6 +66,9 @@ const AROUND: f64 = 0.655;
 const ENOUGH: f64 = 0.55;
 const ONE_DEG: f64 = 1.0;
 const ONE_PART: f64 = 0.01;
+/// What a reduced frame leads to is not farther from what the frame itself makes of it.
+const NEAR_DEG: f64 = 5.0;
+const NEAR_PART: f64 = 0.05;
 
 /// Where a component was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +86,8 @@ pub struct PlacesMemory<'m> {
     pub sums: &'m mut [f64],
     /// As [`crate::shapes::shapes_needed`] says.
     pub shapes: ShapeMemory<'m>,
+    /// As [`crate::reduced::reduced_needed`] says; what is written into it each step reads.
+    pub reduced: ReducedMemory<'m>,
 }
 
 /// The search of a frame, in steps between which it can be called off.
@@ -85,13 +95,20 @@ pub struct PlacesMemory<'m> {
 pub struct WholeFrame {
     /// Middle of the joint's other component, where that is known.
     beside: Option<Vector3>,
-    places: Vec<Point, PLACES>,
+    /// Places, with the score of the best first pose of those that were looked at in passing.
+    places: Vec<(Point, f64), PLACES>,
+    /// So many of them were given by their shape, and come first.
+    shaped: usize,
+    /// Whether places are looked at in passing, to choose among them.
+    in_passing: bool,
     /// Number of the place that is tried.
     at: usize,
     click: Option<OneClick>,
     found: Option<Discovery>,
     /// Whether clicks at two places led there.
     agreed: bool,
+    /// By how much the frame is reduced where places are tried.
+    reduction: Reduction,
 }
 
 impl WholeFrame {
@@ -99,7 +116,7 @@ impl WholeFrame {
     /// known, `beside` its middle (mm, in the camera's frame) less is asked of an answer, and only there.
     ///
     /// # Errors
-    /// [`TooLittleMemory`] where there is less than [`crate::seeds::seeds_needed`] and [`crate::shapes::shapes_needed`].
+    /// [`TooLittleMemory`] where there is less than [`PlacesMemory`] says.
     pub fn new(
         image: &ImageTarget<'_>,
         component: &Component<'_>,
@@ -108,32 +125,42 @@ impl WholeFrame {
         memory: &mut PlacesMemory<'_>,
     ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
+        let is_near = |place: &Point| {
+            beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
+        };
+        let listed = |place: Point| (place, 0.0);
         let mut all = Vec::new();
         if places != Places::Dark {
-            all.extend(shapes(image, component, camera, size, &mut memory.shapes)?);
+            let shaped = shapes(image, component, camera, size, &mut memory.shapes)?;
+            all.extend(shaped.into_iter().filter(is_near).map(listed));
         }
+        let shaped = all.len();
         if places != Places::Shaped {
-            all.extend(seeds(image, camera, size, memory.sums)?);
+            let dark = seeds(image, camera, size, memory.sums)?;
+            all.extend(dark.into_iter().filter(is_near).map(listed));
         }
         let mut search = Self {
             beside,
             places: all,
+            shaped,
+            in_passing: false,
             at: 0,
             click: None,
             found: None,
             agreed: false,
+            reduction: Reduction::of(size, camera),
         };
-        search.places.retain(|place| {
-            beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
-        });
-        search.begin(camera, component);
+        if search.reduction.is_any() && !search.places.is_empty() {
+            search.reduction.write(image, &mut memory.reduced)?;
+        }
+        search.begin(component);
         Ok(search)
     }
 
     /// Lengths of the memory that the next [`Self::step`] borrows; `None` where nothing is left to do.
     #[must_use]
-    pub fn needs(&self, camera: &Camera) -> Option<OneClickNeeds> {
-        Some(self.click.as_ref()?.needs(camera))
+    pub fn needs(&self) -> Option<OneClickNeeds> {
+        Some(self.click.as_ref()?.needs(self.reduction.camera()))
     }
 
     /// The part of the work that is done, 0 to 1.
@@ -144,7 +171,12 @@ impl WholeFrame {
             Some(Progress::Regions(part) | Progress::Poses(part)) => part,
             Some(Progress::Done) => 1.0,
         };
-        (self.at as f64 + of_click) / self.places.len().max(1) as f64
+        let at = match (self.in_passing, of_click) {
+            // To look in passing is a part of the whole.
+            (true, _) => self.shaped as f64 + PASSING * (self.at - self.shaped) as f64,
+            (false, part) => self.at as f64 + part,
+        };
+        at / self.places.len().max(1) as f64
     }
 
     /// The best that was found so far, where it is good.
@@ -153,7 +185,7 @@ impl WholeFrame {
         self.found.as_ref()
     }
 
-    /// The next part of the work. Returns whether there is more to do.
+    /// The next part of the work, with what [`Self::new`] wrote. Returns whether there is more to do.
     ///
     /// # Errors
     /// Where memory is too short.
@@ -163,38 +195,85 @@ impl WholeFrame {
         image: &ImageTarget<'_>,
         component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
+        written: ReducedPixels<'_>,
+    ) -> Result<bool, OneClickError> {
+        let reduction = self.reduction;
+        if !reduction.is_any() {
+            return self.try_place(subject, [image, image], component, memory);
+        }
+        // What is known of the film is in pixels, and a pixel that is unknown is none of the reduced frame.
+        let reduced = reduction.frame(written)?;
+        let seen = ImageTarget {
+            frame: &reduced,
+            unknown: None,
+            film: None,
+            ..*image
+        };
+        self.try_place(subject, [image, &seen], component, memory)
+    }
+
+    /// The next part of a click into a frame, as it is `seen`.
+    fn try_place(
+        &mut self,
+        subject: &Subject<'_>,
+        [image, seen]: [&ImageTarget<'_>; 2],
+        component: &Component<'_>,
+        memory: &mut OneClickMemory<'_>,
     ) -> Result<bool, OneClickError> {
         let Some(click) = &mut self.click else {
             return Ok(false);
         };
         let observation = Observation {
-            frame: image.frame,
-            camera: subject.camera,
-            polarity: image.polarity,
-            excluded: image.unknown,
+            frame: seen.frame,
+            camera: self.reduction.camera(),
+            polarity: seen.polarity,
+            excluded: seen.unknown,
             beside: None,
             film: None,
         };
-        match click.step(&observation, Some(component), memory) {
-            Ok(true) if is_worth_it(click, self.beside, subject) => return Ok(true),
-            Ok(_) => self.compare(subject, image, &mut memory.refine),
-            Err(OneClickError::Memory(error)) => return Err(error.into()),
-            // A click that leads nowhere.
-            Err(_) => {}
+        let step = click.step(&observation, Some(component), memory);
+        let has_more = matches!(step, Ok(true));
+        if self.in_passing {
+            let is_seen = !has_more || matches!(click.progress(), Progress::Poses(_));
+            if !is_seen {
+                return Ok(true);
+            }
+            let best = click.starts().first().map_or(0.0, |start| start.score);
+            if let Some((_, score)) = self.places.get_mut(self.at) {
+                *score = best;
+            }
+        } else if has_more && is_worth_it(click, self.beside, subject) {
+            return Ok(true);
+        } else if step.is_ok() {
+            self.compare(subject, [image, seen], &mut memory.refine);
+        }
+        // A click may lead nowhere.
+        if let Err(OneClickError::Memory(error)) = step {
+            return Err(error.into());
         }
         self.at += 1;
         self.click = None;
         let is_enough = |found: &Discovery| found.pose.score() >= ENOUGH;
         if !self.agreed && !self.found.as_ref().is_some_and(is_enough) {
-            self.begin(subject.camera, component);
+            self.begin(component);
         }
         Ok(self.click.is_some())
     }
 
     /// The click at the next place that has room for one.
-    fn begin(&mut self, camera: &Camera, component: &Component<'_>) {
-        while let Some(&place) = self.places.get(self.at) {
-            self.click = OneClick::new(Prompt::Click(place), camera, Some(component)).ok();
+    fn begin(&mut self, component: &Component<'_>) {
+        loop {
+            if self.at == self.shaped && self.places.len() > self.shaped + TRIED {
+                self.in_passing = true;
+            }
+            if self.in_passing && self.at >= self.places.len() {
+                self.keep_the_likeliest();
+            }
+            let Some(&(place, _)) = self.places.get(self.at) else {
+                return;
+            };
+            let prompt = Prompt::Click(self.reduction.reduced(place));
+            self.click = OneClick::new(prompt, self.reduction.camera(), Some(component)).ok();
             if self.click.is_some() {
                 return;
             }
@@ -202,40 +281,61 @@ impl WholeFrame {
         }
     }
 
+    /// Leaves of the places that were looked at in passing those to be tried.
+    fn keep_the_likeliest(&mut self) {
+        let seen = self.places.get_mut(self.shaped..).unwrap_or_default();
+        seen.sort_unstable_by(|one, other| other.1.total_cmp(&one.1));
+        self.places.truncate(self.shaped + TRIED);
+        (self.at, self.in_passing) = (self.shaped, false);
+    }
+
     /// Takes the best of a click's answers, refined once more, where it is good and better than what there is.
     fn compare(
         &mut self,
         subject: &Subject<'_>,
-        image: &ImageTarget<'_>,
+        [image, seen]: [&ImageTarget<'_>; 2],
         memory: &mut RefineMemory<'_>,
     ) {
         let (answers, demands) = (self.click.as_ref(), demands(self.beside));
         let answers = answers.map_or(&[][..], OneClick::answers);
         let possible = |answer: &&Answer| is_beside(answer, self.beside, subject);
+        let from_afar = Subject {
+            camera: self.reduction.camera(),
+            ..*subject
+        };
         let mut best: Option<FramePose> = None;
         for answer in answers.iter().filter(possible).take(ANSWERS) {
             let start = (&answer.refined.pose, From::Far);
-            let Ok(one) = refined_on_frame(subject, image, start, memory) else {
+            let Ok(one) = refined_on_frame(&from_afar, seen, start, memory) else {
                 continue;
             };
             if best.is_none_or(|best| one.score() > best.score()) {
                 best = Some(one);
             }
         }
-        let (Some(pose), Some(&place)) = (
+        let (Some(best), Some(place)) = (
             best.filter(|one| is_good(one, demands)),
-            self.places.get(self.at),
+            self.places.get(self.at).map(|&(place, _)| place),
         ) else {
             return;
         };
         // Where refinement ends depends a little on where it began: less so the second time, from the same answer by another click.
-        let again = refined_on_frame(subject, image, (&pose.pose, From::Far), memory).ok();
-        let pose = again
-            .filter(|again| is_good(again, demands))
-            .unwrap_or(pose);
+        let again = refined_on_frame(subject, image, (&best.pose, From::Far), memory).ok();
+        let pose = match self.reduction.is_any() {
+            false => again
+                .filter(|again| is_good(again, demands))
+                .unwrap_or(best),
+            // What is good was asked of the reduced frame, for it is asked in pixels; the frame itself only makes it exact.
+            true => {
+                match again.filter(|again| is_near(&again.pose, &best.pose, NEAR_DEG, NEAR_PART)) {
+                    Some(again) => again,
+                    None => return,
+                }
+            }
+        };
         self.agreed = self
             .found
-            .is_some_and(|found| are_one(&found.pose.pose, &pose.pose));
+            .is_some_and(|found| is_near(&found.pose.pose, &pose.pose, ONE_DEG, ONE_PART));
         let is_better = |found: &Discovery| pose.score() > found.pose.score();
         if self.found.as_ref().is_none_or(is_better) {
             self.found = Some(Discovery { place, pose });
@@ -243,10 +343,10 @@ impl WholeFrame {
     }
 }
 
-fn are_one(one: &Pose, other: &Pose) -> bool {
+fn is_near(one: &Pose, other: &Pose, degrees: f64, part: f64) -> bool {
     let off = norm(&subtract(&one.translation, &other.translation));
-    geodesic_deg(&one.rotation, &other.rotation) <= ONE_DEG
-        && off <= ONE_PART * norm(&other.translation)
+    geodesic_deg(&one.rotation, &other.rotation) <= degrees
+        && off <= part * norm(&other.translation)
 }
 
 fn demands(beside: Option<Vector3>) -> &'static Demands {

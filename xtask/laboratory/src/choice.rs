@@ -7,6 +7,6 @@ mod reasons;
 pub mod report;
 
 pub use decide::{Decision, decide};
-pub use mirrored::{doubt_mirrored, looked_at_flipped};
+pub use mirrored::{doubt_mirrored, fit_flipped};
 pub use posed::{Beside, Posed, Posing};
 pub use reasons::Reasons;

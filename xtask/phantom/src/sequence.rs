@@ -44,6 +44,32 @@ pub struct Options {
     pub second_leg: bool,
     /// Whether the joint leaves the field and comes back. Of activities.
     pub leaves_field: bool,
+    /// Other implants than the built-in ones.
+    pub implants: Option<Implants>,
+}
+
+/// Femur and tray, in the axes and with the origins of the built-in ones.
+#[derive(Clone, Debug)]
+pub struct Implants {
+    /// The femur first.
+    pub parts: [Triangles; 2],
+    /// Mediolateral width of the tray, mm.
+    pub width_mm: f64,
+}
+
+impl Implants {
+    fn built_in(side: Side) -> Result<Self> {
+        let size = Size::default();
+        let parameters = Parameters {
+            side,
+            size,
+            resolution: 1.0,
+        };
+        Ok(Self {
+            parts: [implant::femur(&parameters)?, implant::tibia(&parameters)?],
+            width_mm: size.width_mm(),
+        })
+    }
 }
 
 impl Default for Options {
@@ -58,6 +84,7 @@ impl Default for Options {
             shutter: 0.0,
             second_leg: false,
             leaves_field: false,
+            implants: None,
         }
     }
 }
@@ -137,17 +164,14 @@ pub fn write(options: &Options, out: &Path) -> Result<()> {
         fs::create_dir_all(&folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
-    let parameters = Parameters {
-        side: options.side,
-        size: Size::default(),
-        resolution: 1.0,
+    let implants = match &options.implants {
+        Some(implants) => implants.clone(),
+        None => Implants::built_in(options.side)?,
     };
-    let implants = [implant::femur(&parameters)?, implant::tibia(&parameters)?];
-    let width_mm = parameters.size.width_mm();
-    let positions = options.positions(&implants[0], width_mm);
+    let positions = options.positions(&implants.parts[0], implants.width_mm);
     write_texts(options, &positions, out)?;
-    stl::write_file(&implants[0], &out.join("femur.stl"))?;
-    stl::write_file(&implants[1], &out.join("tibia.stl"))?;
+    stl::write_file(&implants.parts[0], &out.join("femur.stl"))?;
+    stl::write_file(&implants.parts[1], &out.join("tibia.stl"))?;
     (0..positions.len())
         .into_par_iter()
         .try_for_each(|index| write_frame(options, &implants, &positions, index, out))
@@ -155,7 +179,7 @@ pub fn write(options: &Options, out: &Path) -> Result<()> {
 
 fn write_frame(
     options: &Options,
-    implants: &[Triangles; 2],
+    implants: &Implants,
     positions: &[Position],
     index: usize,
     out: &Path,
@@ -165,7 +189,7 @@ fn write_frame(
         positions.iter().map(|position| position.tibia).collect(),
     ];
     let [femur, tibia] = [0, 1].map(|part| Placed {
-        mesh: &implants[part],
+        mesh: &implants.parts[part],
         pose: Pose::from(poses[part][index]),
         motion: options.motion(&poses[part], index),
     });
@@ -174,7 +198,7 @@ fn write_frame(
     let scene = Scene {
         camera,
         side: options.side,
-        width_mm: Size::default().width_mm(),
+        width_mm: implants.width_mm,
         femur,
         tibia,
     };

@@ -19,9 +19,6 @@ pub(super) fn faces_surely(
     [per_mm, least, rounding]: [f32; 3],
     [from, to, forth, back]: [&[f32; 3]; 4],
 ) -> Option<[bool; 2]> {
-    let minus = |p: &[f32; 3], q: &[f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    // No less than the length.
-    let length = |p: &[f32; 3]| p[0].abs() + p[1].abs() + p[2].abs();
     let (edge, way) = (minus(to, from), minus(place, from));
     // Both determinants are of the edge as it is run forth, the way and one more side.
     let across = [
@@ -31,13 +28,34 @@ pub(super) fn faces_surely(
     ];
     let rounding = rounding + ROUNDINGS * length(&way);
     let along = length(&edge);
-    let from_plane = |third: &[f32; 3]| {
-        let side = minus(third, from);
-        let longest = along + length(&side);
-        let margin = longest * (per_mm + longest * rounding) + least;
-        let distance = across[0] * side[0] + across[1] * side[1] + across[2] * side[2];
-        (distance.abs() > margin).then_some(distance)
-    };
-    let (forth, back) = (from_plane(forth)?, from_plane(back)?);
+    let margins = [per_mm, least, rounding];
+    let forth = from_plane(&across, along, &minus(forth, from), margins)?;
+    let back = from_plane(&across, along, &minus(back, from), margins)?;
     Some([forth < 0.0, back > 0.0])
+}
+
+/// How far the camera is from the plane of a triangle, times its doubled area, where the sign is certain. By itself in each of the two
+/// places: a call would hand all of it over in memory.
+#[inline(always)]
+fn from_plane(
+    across: &[f32; 3],
+    along: f32,
+    side: &[f32; 3],
+    [per_mm, least, rounding]: [f32; 3],
+) -> Option<f32> {
+    let longest = along + length(side);
+    let margin = longest * (per_mm + longest * rounding) + least;
+    let distance = across[0] * side[0] + across[1] * side[1] + across[2] * side[2];
+    (distance.abs() > margin).then_some(distance)
+}
+
+#[inline(always)]
+fn minus(p: &[f32; 3], q: &[f32; 3]) -> [f32; 3] {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+/// No less than the length.
+#[inline(always)]
+fn length(p: &[f32; 3]) -> f32 {
+    p[0].abs() + p[1].abs() + p[2].abs()
 }

@@ -38,6 +38,12 @@ impl<'e> PackedEdges<'e> {
         (self.boxes, self.edges, self.rims)
     }
 
+    /// Whether there are any: else nothing is drawn.
+    #[must_use]
+    pub fn are_some(&self) -> bool {
+        !(self.edges.is_empty() && self.rims.is_empty())
+    }
+
     /// Whether all are edges of a surface of so many vertices.
     #[must_use]
     pub fn fit(&self, vertices: usize) -> bool {
@@ -65,14 +71,73 @@ impl<'e> PackedEdges<'e> {
     }
 }
 
+impl PackedEdges<'_> {
+    /// Calls `visit` with each triangle of the surface, run as its neighbours are. Of its three edges one does: that before
+    /// which its highest vertex lies.
+    pub(crate) fn for_each_triangle(&self, mut visit: impl FnMut(&[u32; 3])) {
+        let mut side = |[from, to, third]: [u16; 3]| {
+            if third > from && third > to {
+                visit(&[from, to, third].map(u32::from));
+            }
+        };
+        for &[from, to, forth, back] in self.edges {
+            side([from, to, forth]);
+            side([to, from, back]);
+        }
+        self.rims.iter().copied().for_each(side);
+    }
+}
+
 /// An edge as it was before it was packed, but for what its triangles need of a margin.
 pub(crate) fn unpacked(edge: &PackedEdge) -> MeshEdge {
-    let [from, to, forth, back] = edge.map(u32::from);
+    // One after the other: `map` makes a loop of it, which some compilers leave one.
+    let &[from, to, forth, back] = edge;
     MeshEdge {
-        from,
-        to,
-        forth,
-        back,
+        from: from.into(),
+        to: to.into(),
+        forth: forth.into(),
+        back: back.into(),
         order: 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mesh::Mesh;
+    use crate::mesh::edges::fake::Linked;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Places of the corners of triangles that cover anything, in any order.
+    fn places(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<[[u32; 3]; 3]> {
+        let place = |vertex: u32| vertices[vertex as usize].map(f32::to_bits);
+        let places = triangles.iter().map(|triangle| {
+            let mut places = triangle.map(place);
+            places.sort_unstable();
+            places
+        });
+        let mut places: Vec<_> = places.filter(|[a, b, c]| a != b && b != c).collect();
+        places.sort_unstable();
+        places
+    }
+
+    proptest! {
+        /// Holes, several triangles at an edge, vertices at one place, windings of both kinds.
+        #[test]
+        fn triangles_are_found_again_from_their_edges(
+            vertices in proptest::collection::vec([0u8..3, 0u8..3, 0u8..2], 4..20),
+            corners in proptest::collection::vec([0u32..20, 0u32..20, 0u32..20], 1..30),
+        ) {
+            let vertices: Vec<[f32; 3]> = vertices.iter().map(|place| place.map(f32::from)).collect();
+            let triangles: Vec<[u32; 3]> =
+                corners.iter().map(|corners| corners.map(|corner| corner % vertices.len() as u32)).collect();
+            let Ok(mesh) = Mesh::new(&vertices, &triangles) else { return Ok(()) };
+            let packed = Linked::new(&mesh).packed();
+            let mut found = Vec::new();
+            let edges = packed.edges();
+            let (packed, _) = edges.packed().expect("packed");
+            packed.for_each_triangle(|&triangle| found.push(triangle));
+            prop_assert_eq!(places(&vertices, &found), places(&vertices, &triangles));
+        }
     }
 }

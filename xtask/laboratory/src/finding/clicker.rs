@@ -181,13 +181,13 @@ impl<'l> Clicker<'l> {
         let camera = &self.camera;
         let kernels = fluoropose_kernels::fastest();
         let mut places = PlacesBuffers::default();
-        let mut places = places.borrow(camera, self.finder.workspace(&self.library, kernels));
-        let mut search = WholeFrame::new(image, &component, camera, where_to, &mut places)?;
-        while let Some(needs) = search.needs(camera) {
+        let mut room = places.borrow(camera, self.finder.workspace(&self.library, kernels));
+        let mut search = WholeFrame::new(image, &component, camera, where_to, &mut room)?;
+        while let Some(needs) = search.needs() {
             goes_on(search.progress())?;
             let finder = self.finder.borrow(&component, camera, kernels);
             let mut memory = self.own.borrow(&needs, finder.workspace, finder.refine);
-            search.step(subject, image, &component, &mut memory)?;
+            search.step(subject, image, &component, &mut memory, places.reduced())?;
         }
         Ok(search.found().copied())
     }

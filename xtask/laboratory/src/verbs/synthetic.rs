@@ -3,6 +3,7 @@
 mod activity;
 mod anywhere;
 mod films;
+mod implants;
 mod physics;
 mod protocol;
 mod random;

@@ -9,7 +9,7 @@ use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
 use fluoropose_report::counted;
 
 use super::found::{Found, Part};
-use crate::choice::{doubt_mirrored, looked_at_flipped};
+use crate::choice::{doubt_mirrored, fit_flipped};
 use crate::files::Role;
 
 /// Doubts poses of both components where these lie beside each other as in no knee, source by source, and says so.
@@ -60,25 +60,19 @@ fn look_flipped(
     found: [&Found; 2],
     apart: &[f64],
 ) -> Result<Vec<Option<[FlippedFit; 2]>>> {
-    let mut buffers = RefineBuffers::default();
-    let mut fits = Vec::new();
-    for frame in looked_at_flipped(apart) {
-        let mut fit = |number: usize, component| -> Result<Option<FlippedFit>> {
-            let Some(pose) = found[number].poses()[frame] else {
-                return Ok(None);
-            };
-            let camera = found[number].camera;
-            found[number].masks()?.look(frame, |seen| {
-                let view = CameraView::only(&camera, seen.silhouette);
-                let own = (&models[number], &pose);
-                Ok(knee.fit(component, own, view, RefineOptions::default(), &mut buffers))
-            })
+    fit_flipped(apart, |component, frame| {
+        let number = usize::from(component == KneeComponent::Tibia);
+        let Some(pose) = found[number].poses()[frame] else {
+            return Ok(None);
         };
-        let femur = fit(0, KneeComponent::Femur)?;
-        let tibia = fit(1, KneeComponent::Tibia)?;
-        fits.push(femur.zip(tibia).map(<[FlippedFit; 2]>::from));
-    }
-    Ok(fits)
+        let camera = found[number].camera;
+        found[number].masks()?.look(frame, |seen| {
+            let view = CameraView::only(&camera, seen.silhouette);
+            let (own, options) = ((&models[number], &pose), RefineOptions::default());
+            let mut buffers = RefineBuffers::default();
+            Ok(knee.fit(component, own, view, options, &mut buffers))
+        })
+    })
 }
 
 /// Says what is told, once.

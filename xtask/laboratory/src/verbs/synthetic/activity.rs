@@ -7,7 +7,9 @@ use fluoropose_phantom::film::activity::Activity;
 use fluoropose_phantom::implant::Side;
 use fluoropose_phantom::sequence::{self, Options};
 
+use super::implants::of_study;
 use super::physics::PhysicsOptions;
+use crate::options::study_files;
 
 /// What is filmed.
 #[derive(clap::Args)]
@@ -33,6 +35,18 @@ pub(super) struct ActivityArgs {
     /// With --activity: the joint leaves the field to one side and comes back
     #[arg(long)]
     leaves_field: bool,
+    /// With --activity: the implants of this study in place of the built-in ones
+    #[arg(long, value_name = "STUDY", value_parser = study_files())]
+    implants: Option<PathBuf>,
+    /// With --implants: other designs, stretched by so much along the anterior, superior and lateral axis
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        requires = "implants",
+        default_value = "1,1,1"
+    )]
+    stretch: Vec<f64>,
     #[command(flatten)]
     physics: PhysicsOptions,
 }
@@ -48,6 +62,10 @@ pub(super) fn run(args: &ActivityArgs, seed: u64) -> Result<()> {
         "a shutter is open for 0 to 1 of the time, not {}",
         args.shutter
     );
+    let stretch = <[f64; 3]>::try_from(args.stretch.as_slice());
+    let stretch = stretch.context("--stretch takes three numbers, as 1.1,1,0.9")?;
+    let implants = args.implants.as_ref();
+    let implants = implants.map(|study| of_study(study, args.side, stretch));
     let options = Options {
         frames: args.frames,
         seed,
@@ -57,6 +75,7 @@ pub(super) fn run(args: &ActivityArgs, seed: u64) -> Result<()> {
         shutter: args.shutter,
         second_leg: args.second_leg,
         leaves_field: args.leaves_field,
+        implants: implants.transpose()?,
     };
     sequence::write(&options, out)?;
     println!("{} frames in {}", args.frames, out.display());

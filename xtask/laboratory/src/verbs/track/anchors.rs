@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{
-    Anchor, Cell, FramePose, Places, frames_to_search, run_to_search, settled,
+    Anchor, Cell, FramePose, Places, RunsToSearch, frames_to_search, settled,
 };
 use fluoropose::pose::Pose;
 
@@ -131,11 +131,12 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
         return Ok(());
     };
     let depth = Some(part.depth_of(&known.pose));
-    let mut from = 0;
-    while let Some(gap) = run_to_search(cells, &(from..cells.len())) {
+    let (mut from, mut runs) = (0, RunsToSearch::default());
+    while let Some(gap) = runs.next(cells, &(from..cells.len())) {
         from = gap.end;
         for frame in frames_to_search(&gap) {
             let Some(found) = searched(run, part, frame, (depth, Places::All), None)? else {
+                runs.missed(&gap);
                 continue;
             };
             let anchor = Anchor::found(frame, found);

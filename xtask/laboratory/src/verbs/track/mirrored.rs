@@ -11,7 +11,7 @@ use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
 use super::part::Part;
 use super::request::Told;
 use super::run::Run;
-use crate::choice::looked_at_flipped;
+use crate::choice::fit_flipped;
 use crate::files::Role;
 
 /// What is told of each frame; nothing where the film does not have one knee, or its axes are not known.
@@ -78,30 +78,26 @@ fn look_flipped(
     both: [(&Part<'_>, &Vec<Option<Pose>>); 2],
     apart: &[f64],
 ) -> Result<Vec<Option<[FlippedFit; 2]>>> {
-    let mut buffers = RefineBuffers::default();
-    let mut fits = Vec::new();
-    for frame in looked_at_flipped(apart) {
-        let mut fit =
-            |(part, poses): (&Part<'_>, &Vec<Option<Pose>>)| -> Result<Option<FlippedFit>> {
-                let (Some(pose), Some(role)) = (poses[frame], part.role()) else {
-                    return Ok(None);
-                };
-                let model: Model<'_> = part.model();
-                part.see(run.film, frame, |_, image, _| {
-                    let view = CameraView::only(&part.camera, *image);
-                    let options = RefineOptions::default();
-                    knee.fit(
-                        role.component(),
-                        (&model, &pose),
-                        view,
-                        options,
-                        &mut buffers,
-                    )
-                })
-            };
-        let [femur, tibia] = both;
-        let (femur, tibia) = (fit(femur)?, fit(tibia)?);
-        fits.push(femur.zip(tibia).map(<[FlippedFit; 2]>::from));
-    }
-    Ok(fits)
+    fit_flipped(apart, |component, frame| {
+        let of = |(part, _): &&(&Part<'_>, _)| part.role().map(Role::component) == Some(component);
+        let Some((part, Some(pose))) = both
+            .iter()
+            .find(of)
+            .map(|(part, poses)| (part, poses[frame]))
+        else {
+            return Ok(None);
+        };
+        let model: Model<'_> = part.model();
+        part.see(run.film, frame, |_, image, _| {
+            let view = CameraView::only(&part.camera, *image);
+            let mut buffers = RefineBuffers::default();
+            knee.fit(
+                component,
+                (&model, &pose),
+                view,
+                RefineOptions::default(),
+                &mut buffers,
+            )
+        })
+    })
 }
