@@ -80,6 +80,11 @@ export class Work {
     this.saved = this.states.length - 1;
   }
 
+  /** The browser has cleared what it kept, and what was shown as saved went with it; it is safe again when the page shows it as saved again. */
+  evicted() {
+    this.saved = 0;
+  }
+
   /** Another frame, of so many bytes or a little more. @param {number} bytes */
   async addFrame(bytes) {
     const { frames } = this.#last;
@@ -106,6 +111,7 @@ export class Work {
     if (this.saved === 0 && (await isEmpty(page))) return { unsaved: expected.length - 1, broughtBack: 0 };
     await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'the files to be back');
     await atRest(page);
+    const said = await panel.said(page);
     const session = JSON.parse((await exported(page, 'Session')).buffer.toString());
     const found = stateOf(session.document);
     const at = expected.findIndex((state) => same(state, found));
@@ -117,6 +123,7 @@ export class Work {
     const missing = session.files.filter((/** @type {{ name: string, base64: string | null }} */ { base64 }) => base64 === null);
     const safe = this.states[this.saved].frames;
     assert.deepEqual(missing.filter(({ name }) => safe.includes(name)), [], 'files of the work are gone');
+    for (const { name } of missing) assert(said.includes('Not kept in this browser') && said.includes(name), `${name} is missed, and the page says: ${said}`);
     await showsPixels(page, this.title, safe.length);
     return { unsaved: expected.length - 1, broughtBack: at };
   }
