@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ADDRESS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
-import { openExport } from './support/exporting.mjs';
+import { evict } from './support/eviction.mjs';
+import { exported, openExport } from './support/exporting.mjs';
 import { choose, temporaryFolder } from './support/files.mjs';
 import { png } from './support/frames.mjs';
 import { startBrowser } from './support/own_browser.mjs';
@@ -76,6 +77,46 @@ test('a browser that is killed in the middle of a trace', { timeout: 3 * PATIENC
     const again = await second.page();
     await hasEverything(again, work);
     await second.kill();
+  });
+});
+
+test('storage that is cleared under work that came back from it', { timeout: 3 * PATIENCE, skip: IN_FIREFOX }, async (t) => {
+  const profile = await temporaryFolder();
+  const originals = [1, 2, 3].map((shift) => ({ ...png(8, (grey) => (grey + shift) % 256), name: `${shift}.png` }));
+  const first = await startBrowser(profile);
+  const before = await first.page();
+  await choose(before, ...originals);
+  await panel.waitForFrames(before, FRAMES);
+  await note(before, NOTE);
+  await panel.waitUntilKept(before);
+  await first.kill();
+  const second = await startBrowser(profile);
+  const page = await second.page();
+
+  await t.test('the page names the files of which that was the only copy, and does not say that they are saved', async () => {
+    await panel.waitForFrames(page, FRAMES);
+    await panel.waitUntilKept(page);
+    await evict(page);
+    await saved(page, /^Not saved/);
+    await panel.waitForWords(page, /no copy any more of 1\.png, 2\.png and 3\.png, .*: drop the originals/);
+  });
+
+  await t.test('a session file is without them, and that is said', async () => {
+    const session = JSON.parse((await exported(page, 'Session')).buffer.toString());
+    assert.deepEqual(session.files.map((/** @type {{ base64: string | null }} */ { base64 }) => base64), [null, null, null]);
+    await panel.waitForWords(page, /Session saved, but without the bytes of 1\.png, 2\.png and 3\.png/);
+  });
+
+  await t.test('the originals are taken, and all is saved and comes back', async () => {
+    await choose(page, ...originals);
+    await saved(page, /^Saved/);
+    await panel.waitForFrames(page, FRAMES);
+    await second.kill();
+    const again = await (await startBrowser(profile)).page();
+    await panel.waitForFrames(again, FRAMES);
+    assert.equal(await noteField(again).inputValue(), NOTE);
+    const session = JSON.parse((await exported(again, 'Session')).buffer.toString());
+    assert.deepEqual(session.files.map((/** @type {{ base64: string }} */ { base64 }) => base64), originals.map(({ buffer }) => buffer.toString('base64')));
   });
 });
 

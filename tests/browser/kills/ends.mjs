@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { cp } from 'node:fs/promises';
 import { join } from 'node:path';
 import { ADDRESS, openWindow, setting, until } from '../support/browser.mjs';
+import { evict } from '../support/eviction.mjs';
 import { openExport } from '../support/exporting.mjs';
 import { choose, temporaryFolder } from '../support/files.mjs';
 import { Host } from '../support/host.mjs';
@@ -80,11 +81,14 @@ export const ENDS = {
     const page = await window();
     const work = await begun(page, random, title);
     await work.edit(EDITS / 2);
+    // A write may be under way: what is in the page when the storage goes has to be kept again, with an edit or without.
     await evict(page);
-    // The work is still in the page, and has to be kept again, with an edit or without.
+    work.evicted();
     if (random() < 0.5) await work.edit(2);
     else await new Promise((resolve) => setTimeout(resolve, 2000));
-    await work.look();
+    // What it was saving when it crashed may be there in part; what it shows as saved is there.
+    if (random() < 0.5) await work.rest();
+    else await work.look();
     return [{ work, page: await afterCrash(page) }];
   },
 
@@ -254,12 +258,6 @@ async function quota(page, bytes) {
   const session = await page.context().newCDPSession(page);
   const origin = new URL(ADDRESS).origin;
   await session.send('Storage.overrideQuotaForOrigin', bytes === null ? { origin } : { origin, quotaSize: bytes });
-}
-
-/** As a browser does whose disk is full. @param {Page} page */
-async function evict(page) {
-  const session = await page.context().newCDPSession(page);
-  await session.send('Storage.clearDataForOrigin', { origin: new URL(ADDRESS).origin, storageTypes: 'indexeddb' });
 }
 
 /** @param {Page} page */

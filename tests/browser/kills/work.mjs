@@ -80,6 +80,11 @@ export class Work {
     this.saved = this.states.length - 1;
   }
 
+  /** The browser has cleared what it kept, and what was shown as saved went with it; it is safe again when the page shows it as saved again. */
+  evicted() {
+    this.saved = 0;
+  }
+
   /** Another frame, of so many bytes or a little more. @param {number} bytes */
   async addFrame(bytes) {
     const { frames } = this.#last;

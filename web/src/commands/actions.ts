@@ -320,10 +320,12 @@ export class Actions {
     const { store } = this.#services;
     const { saveSession } = await import('../exchange/saver');
     const doc = store.doc;
-    download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
+    const { parts, without } = await saveSession(this.#services, includeFiles);
+    download(parts, `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
     store.show({ savedAt: Date.now(), popover: null });
-    store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
+    if (without.length > 0) store.say('error', texts.said.sessionSavedWithout(texts.listed(without)));
+    else store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
   }
 
   hasPoses(component: ComponentName): boolean {

@@ -17,7 +17,8 @@ export class Assets {
   async add(name: string, blob: Blob): Promise<Asset> {
     const sha256 = await digestOf(new Uint8Array(await blob.arrayBuffer()));
     const known = this.#byDigest.get(sha256);
-    if (known && !this.#unchecked.has(known)) return known;
+    // One that came back from the browser's storage goes when the browser clears that: then this is its only copy.
+    if (known && !this.#unchecked.has(known) && (await isReadable(known.blob))) return known;
     const asset = { name, sha256, blob };
     this.#byDigest.set(sha256, asset);
     return asset;
@@ -42,4 +43,12 @@ export class Assets {
     this.#unchecked.delete(asset);
     return true;
   }
+}
+
+/**
+ * Are its bytes still there? Those of a file on the disk may be moved away, those of one in the browser's storage cleared. Of a part
+ * Chromium says so; who reads all of what was cleared there waits in vain.
+ */
+export function isReadable(blob: Blob): Promise<boolean> {
+  return blob.slice(0, 1).arrayBuffer().then(() => true, () => false);
 }

@@ -1,4 +1,4 @@
-import type { Assets } from '../document/assets';
+import { isReadable, type Assets } from '../document/assets';
 import { texts } from '../texts/texts';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
@@ -22,6 +22,7 @@ export function frameDecoder(assets: Assets, worker: Pick<Bridge<DecodeProtocol>
     const { name, blob } = asset;
     const over = work.begin();
     try {
+      if (!(await isReadable(blob))) throw new Error(texts.keep.filesGone(name));
       if (!(await assets.check(asset))) throw new Error(texts.keep.damaged(name));
       return await worker.call('frame', { key: sha256, blob, name, index }, { signal });
     } finally {

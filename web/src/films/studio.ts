@@ -149,7 +149,8 @@ export class Studio {
     const pictures = ids.map(pictureOf);
     const [onView] = pictures;
     const isHere = onView === undefined || this.#frames.has(onView);
-    this.#frames.expect(pictures).then(
+    // Of one that is not known yet the answer would be none, also to who asks in the same moment after it has become known.
+    this.#frames.expect(pictures.filter((picture) => this.#known.has(picture))).then(
       () => isHere || this.onArrival(),
       (error: unknown) => {
         // Another one is on view by now.
@@ -163,7 +164,7 @@ export class Studio {
 
   /** Waits until a frame is in memory; false where its file is not at hand. */
   async bring(id: string): Promise<boolean> {
-    return (await this.#frames.bring(pictureOf(id))) !== null;
+    return this.hasFrame(id) && (await this.#frames.bring(pictureOf(id))) !== null;
   }
 
   /** Frames are shown undistorted from now on, or as they were taken. */

@@ -5,8 +5,10 @@ import { cellKey, EMPTY_DOC, type Doc } from '../document/types';
 import { texts } from '../texts/texts';
 import { PROGRAM } from '../terms/program';
 import { filesOf } from '../document/named_files';
-import { sentenceOf, type Services } from '../jobs/services';
+import type { Services } from '../jobs/services';
 import { Claims } from './claims';
+import { addFiles } from './kept_files';
+import { FilesGone, isTakenAway, refusal } from './refusals';
 import { Shelf, type CellChange, type KeptWork } from './shelf';
 
 /** A change waits this long for others to be written with it, ms: what a crash may cost. */
@@ -24,6 +26,8 @@ interface Written extends Seen {
   readonly savedAt: number;
   /** All files that it names are there. */
   readonly hasFiles: boolean;
+  /** Names of those that the storage had, and that the page cannot read any more. */
+  readonly gone: readonly string[];
 }
 
 /**
@@ -37,12 +41,14 @@ export class Keeper {
   readonly #open: () => Promise<Shelf>;
   #shelf: Promise<Shelf> | null = null;
   /** Works on view or left; others are let go, and what comes back by undo is written anew, no longer put aside. */
-  readonly #written = new Map<string, Written>();
+  #written = new Map<string, Written>();
   /** Work that was left for other work before all of it was written. */
   readonly #left = new Map<string, Seen>();
   #latest = EMPTY_DOC;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #saving: Promise<void> | null = null;
+  /** How often in a row the storage was taken away while it was written to. */
+  #interruptions = 0;
 
   constructor(services: Pick<Services, 'store' | 'assets'>, claims = new Claims(), open?: () => Promise<Shelf>) {
     this.#services = services;
@@ -67,7 +73,11 @@ export class Keeper {
   /** The browser took the storage away: what was written there may be gone, and is written again. */
   lost(): void {
     this.#shelf = null;
-    this.#written.clear();
+    // What is being written just now is noted in the old one, where nobody looks.
+    this.#written = new Map();
+    // Not at once: as long as it clears, the browser opens nothing.
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
     this.#notice();
   }
 
@@ -88,7 +98,7 @@ export class Keeper {
 
   /** A document that was just read from the storage is written there already. */
   adopt(doc: Doc, savedAt: number): void {
-    this.#written.set(doc.work, { doc, view: this.#view(), savedAt, hasFiles: false });
+    this.#written.set(doc.work, { doc, view: this.#view(), savedAt, hasFiles: false, gone: [] });
     this.#latest = doc;
     const at = Date.now();
     this.#show({ state: 'kept', at });
@@ -121,11 +131,25 @@ export class Keeper {
   /** Other work is on view: what was there before is not what the next page begins with. */
   #turn(before: Doc, { work }: Doc): void {
     if (this.#written.get(before.work)?.doc === before) {
-      this.shelf().then((shelf) => shelf.putAside(before.work, true)).catch((error: unknown) => this.#refuse(error));
       this.#written.delete(before.work);
+      void this.#putAside({ doc: before, view: this.#view() });
     } else if (before.work !== '') this.#left.set(before.work, { doc: before, view: this.#view() });
     this.#left.delete(work);
     if (work === '' && this.#left.size === 0) this.#show({ state: 'nothing' });
+  }
+
+  /** Work that is written; where the browser cleared it just now, it is written again. */
+  async #putAside(seen: Seen): Promise<void> {
+    const { work } = seen.doc;
+    try {
+      const shelf = await this.shelf();
+      if (await shelf.putAside(work)) return;
+    } catch (error) {
+      if (!isTakenAway(error)) return this.#refuse(error);
+    }
+    // Undo may have brought it back.
+    if (this.#store.doc.work !== work) this.#left.set(work, seen);
+    this.lost();
   }
 
   #isPending(): boolean {
@@ -136,7 +160,7 @@ export class Keeper {
   #isWritten(view?: string): boolean {
     const { doc } = this.#store;
     const written = this.#written.get(doc.work);
-    return doc.work === '' || (written?.doc === doc && (view === undefined || written.view === view));
+    return doc.work === '' || (written?.doc === doc && written.gone.length === 0 && (view === undefined || written.view === view));
   }
 
   #schedule(): void {
@@ -166,47 +190,61 @@ export class Keeper {
     const { doc, ui } = this.#store;
     try {
       // What is on view comes first: the page may be about to go.
-      if (doc.work !== '') await this.#put({ doc, view: this.#view() }, false);
-      for (const [id, left] of [...this.#left]) {
-        await this.#put(left, true);
-        if (this.#left.get(id) !== left) continue;
-        this.#left.delete(id);
-        this.#written.delete(id);
-      }
-      if (this.#store.doc.work === doc.work && this.#left.size === 0) this.#show(doc.work === '' ? { state: 'nothing' } : { state: 'kept', at: Date.now() });
+      const gone = doc.work === '' ? [] : await this.#put({ doc, view: this.#view() }, false);
+      await this.#writeLeft();
+      this.#interruptions = 0;
+      if (gone.length > 0 && this.#store.doc.work === doc.work) throw new FilesGone(gone);
       if (ui.keeping.state === 'refused') this.#store.say('info', texts.keep.again);
+      this.#tell();
     } catch (error) {
-      this.#refuse(error);
-      // Not at once: what is full stays full for a while.
-      this.#timer = setTimeout(() => this.flush(), RETRY);
+      this.#stop(error);
     }
   }
 
-  /** Writes a work with its files: of its cells those that changed, where the storage still has the others. */
-  async #put(seen: Seen, putAside: boolean): Promise<void> {
+  async #writeLeft(): Promise<void> {
+    for (const [id, left] of [...this.#left]) {
+      const gone = await this.#put(left, true);
+      if (this.#left.get(id) !== left) continue;
+      this.#left.delete(id);
+      this.#written.delete(id);
+      // Nobody looks at it, and nothing that is on view is less safe for it: it is said once.
+      if (gone.length > 0) this.#store.say('error', refusal(new FilesGone(gone)));
+    }
+  }
+
+  /** Says that nothing waits, if that is so still: there may be news since this was begun. */
+  #tell(): void {
+    if (this.#left.size > 0 || !this.#isWritten()) {
+      if (this.#store.ui.keeping.state === 'refused') this.#show({ state: 'pending', since: Date.now() });
+    } else this.#show(this.#store.doc.work === '' ? { state: 'nothing' } : { state: 'kept', at: Date.now() });
+  }
+
+  #stop(error: unknown): void {
+    if (isTakenAway(error)) {
+      this.lost();
+      // It is opened anew, and all is written again, before anybody has to be told.
+      if (++this.#interruptions <= INTERRUPTIONS) return;
+    }
+    this.#refuse(error);
+    // Not at once: what is full stays full for a while.
+    this.#timer = setTimeout(() => this.flush(), RETRY);
+  }
+
+  /** Writes a work with its files: of its cells those that changed, where the storage still has the others. Names of files that are gone. */
+  async #put(seen: Seen, putAside: boolean): Promise<readonly string[]> {
     const { doc } = seen;
     if (!(await this.#claims.claim(doc.work))) throw new Error(texts.keep.elsewhere);
     const shelf = await this.shelf();
-    const written = this.#written.get(doc.work);
+    const known = this.#written;
+    const written = known.get(doc.work);
     const record = recordOf(seen, putAside);
     const goesOn = written !== undefined && (await shelf.write(record, changedCells(written.doc, doc))) === written.savedAt;
     if (!goesOn) await shelf.writeWhole(record, changedCells(EMPTY_DOC, doc));
     const namesTheSame = written?.doc.frames === doc.frames && written.doc.components === doc.components;
-    const hasFiles = (goesOn && namesTheSame && written.hasFiles) || (await this.#addFiles(shelf, doc));
-    this.#written.set(doc.work, { ...seen, savedAt: record.savedAt, hasFiles });
-  }
-
-  /** Bytes of files that are not there yet; a file never changes, it is named by what is in it. True if all are there now. */
-  async #addFiles(shelf: Shelf, doc: Doc): Promise<boolean> {
-    const there = new Set(await shelf.fileDigests());
-    for (const { sha256, name } of filesOf(doc)) {
-      const asset = this.#services.assets.get(sha256);
-      // A session may name files that nobody has opened yet.
-      if (there.has(sha256) || !asset) continue;
-      await shelf.addFile({ sha256, name, blob: asset.blob });
-      there.add(sha256);
-    }
-    return filesOf(doc).every(({ sha256 }) => there.has(sha256));
+    const hadFiles = goesOn && namesTheSame && written.hasFiles;
+    const { isAll, gone } = hadFiles ? { isAll: true, gone: [] } : await addFiles(shelf, this.#services.assets, filesOf(doc));
+    known.set(doc.work, { ...seen, savedAt: record.savedAt, hasFiles: isAll, gone });
+    return gone;
   }
 
   #refuse(error: unknown): void {
@@ -240,6 +278,9 @@ function recordOf({ doc, view }: Seen, putAside: boolean): KeptWork {
 /** After a refusal, ms. */
 const RETRY = 5000;
 
+/** So often in a row the storage may be taken away before that is a refusal. */
+const INTERRUPTIONS = 3;
+
 /** A document worth keeping: somebody opened or typed something. */
 function hasSomething(doc: Doc): boolean {
   const { work: _work, ...now } = doc;
@@ -250,11 +291,4 @@ function hasSomething(doc: Doc): boolean {
 /** Cells that differ from what was written; cells that are gone as null. */
 export function changedCells(before: Doc, after: Doc): CellChange[] {
   return before.cells.differences(after.cells).map(({ frameId, component, after: cell }) => ({ key: cellKey(frameId, component), cell: cell && plainCell(cell) }));
-}
-
-/** What the browser's refusal means for the person. */
-function refusal(error: unknown): string {
-  const name = error instanceof DOMException ? error.name : '';
-  if (name === 'QuotaExceededError') return texts.keep.full;
-  return texts.keep.refused(sentenceOf(error));
 }

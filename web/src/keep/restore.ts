@@ -6,7 +6,7 @@ import { texts } from '../texts/texts';
 import { bringFiles } from '../exchange/bring_files';
 import { sentenceOf, type Services } from '../jobs/services';
 import type { Keeper } from './keeper';
-import type { KeptWork, Shelf } from './shelf';
+import type { KeptWork } from './shelf';
 import { work } from '../workers/activity';
 
 /** A document nobody began: undo goes back to what was before. */
@@ -32,17 +32,23 @@ export async function workToRestore(keeper: Keeper): Promise<KeptWork | null> {
 export async function restoreWork(services: Services, keeper: Keeper, work: KeptWork): Promise<void> {
   const { store } = services;
   try {
-    const doc = await docOf(keeper, work);
+    const doc = await counted(readWhole(services, keeper, work));
     keeper.adopt(doc, work.savedAt);
     store.amend(() => doc);
     store.settle();
     showView(services, work);
     const offer = { label: texts.keep.startAnew, take: () => startAnew(services) };
     store.say('info', texts.keep.restored(work.name, work.savedAt), offer);
-    await bringKeptFiles(services, keeper, work, doc);
+    await bringKeptFiles(services, doc);
   } catch (error) {
-    store.say('error', texts.keep.notRestored(work.name, sentenceOf(error)));
+    const words = (await isStillKept(keeper, work)) ? texts.keep.notRestored(work.name, sentenceOf(error)) : texts.keep.cleared(work.name);
+    store.say('error', words);
   }
+}
+
+/** Unknown is yes: nobody is told of a loss that may be none. */
+function isStillKept(keeper: Pick<Keeper, 'shelf'>, { id }: KeptWork): Promise<boolean> {
+  return keeper.shelf().then((shelf) => shelf.work(id)).then((found) => found !== null, () => true);
 }
 
 /** Opens work that was put aside. A command: undo brings back what was open. */
@@ -51,17 +57,25 @@ export async function openKept(services: Services, keeper: Keeper, id: string): 
   const work = await (await keeper.shelf()).work(id);
   if (!work) throw new Error(texts.keep.gone);
   if (!(await keeper.claim(id))) throw new Error(texts.keep.elsewhere);
-  const doc = await docOf(keeper, work);
+  const doc = await counted(readWhole(services, keeper, work));
   store.perform({ label: texts.keep.openLabel, apply: () => doc });
   showView(services, work);
   store.show({ popover: null });
-  await bringKeptFiles(services, keeper, work, doc);
+  await bringKeptFiles(services, doc);
   store.say('info', texts.keep.opened(work.name));
 }
 
-async function docOf(keeper: Keeper, work: KeptWork): Promise<Doc> {
+/**
+ * The document, with its files at hand: what the browser clears from then on is still in the page, or missed by the keeper. Half a work, of
+ * which the rest was cleared while it was read, is none.
+ */
+async function readWhole({ assets }: Services, keeper: Keeper, work: KeptWork): Promise<Doc> {
   if (work.version > SESSION_VERSION) throw new ReadError(texts.keep.newer(work.program));
-  const cells = await (await keeper.shelf()).cells(work.id);
+  const shelf = await keeper.shelf();
+  const cells = await shelf.cells(work.id);
+  const files = await shelf.files(work.files.map(({ sha256 }) => sha256));
+  if ((await shelf.work(work.id)) === null) throw new Error(texts.keep.gone);
+  for (const kept of files) assets.keep(kept);
   return { ...readDoc({ ...work.document, cells }, texts.keep.place), work: work.id };
 }
 
@@ -75,17 +89,17 @@ function showView({ store }: Services, work: KeptWork): void {
 }
 
 /** Files are looked at when they are read; models are at once, frames when they are shown. */
-async function bringKeptFiles(services: Services, keeper: Keeper, kept: KeptWork, doc: Doc): Promise<void> {
+async function bringKeptFiles(services: Services, doc: Doc): Promise<void> {
+  const missing = await counted(bringFiles(services, doc));
+  if (missing.length > 0) services.store.say('error', texts.keep.missing(texts.listed(missing), missing.length));
+}
+
+/** As work that is under way. */
+async function counted<T>(underWay: Promise<T>): Promise<T> {
   const over = work.begin();
   try {
-    await bringFrom(await keeper.shelf(), services, kept, doc);
+    return await underWay;
   } finally {
     over();
   }
-}
-
-async function bringFrom(shelf: Shelf, services: Services, work: KeptWork, doc: Doc): Promise<void> {
-  for (const kept of await shelf.files(work.files.map(({ sha256 }) => sha256))) services.assets.keep(kept);
-  const missing = await bringFiles(services, doc);
-  if (missing.length > 0) services.store.say('error', texts.keep.missing(texts.listed(missing), missing.length));
 }

@@ -121,11 +121,13 @@ export class Shelf {
     return (await before)?.savedAt ?? null;
   }
 
-  async putAside(id: string, putAside: boolean): Promise<void> {
+  /** False where the work is not there. */
+  async putAside(id: string): Promise<boolean> {
     const transaction = this.#database.transaction('works', 'readwrite');
     const work = await transaction.store.get(id);
-    if (work && work.putAside !== putAside) await transaction.store.put({ ...work, putAside });
+    if (work && !work.putAside) await transaction.store.put({ ...work, putAside: true });
     await transaction.done;
+    return work !== undefined;
   }
 
   async delete(id: string): Promise<void> {

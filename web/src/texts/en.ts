@@ -209,6 +209,8 @@ export const en = {
     refused: (why: string) =>
       `This browser does not let the page keep the work (${why.replace(/\.$/, '')}): save a session file (Ctrl+S) before you close the tab.`,
     again: 'The work is being saved in this browser again.',
+    filesGone: (names: string, count = 1) =>
+      `The page has no copy any more of ${names}, which the browser cleared from its storage or the disk has no longer: drop ${count === 1 ? 'the original' : 'the originals'} on the page.`,
     elsewhere: 'This work is open in another tab; close it there first.',
     gone: 'This work is no longer in the browser; it was deleted in another tab.',
     startAnew: 'Start anew',
@@ -218,6 +220,7 @@ export const en = {
     opened: (name: string) => `Opened ${name || 'the work'} as it was left.`,
     restored: (name: string, at: number) => `${name || 'The work'} is back as it was at ${new Date(at).toLocaleTimeString()}; undo begins anew here.`,
     notRestored: (name: string, why: string) => `${name || 'The work'} of last time could not be brought back: ${why}. It stays in this browser, under Save, Earlier work.`,
+    cleared: (name: string) => `${name || 'The work'} of last time could not be brought back: the browser cleared its storage before it was read.`,
     notLookedAt: (why: string) => `The browser does not say what it keeps of earlier work (${why.replace(/\.$/, '')}): reload the page to try again.`,
     newer: (program: string) => `it was written by ${program}, which is newer than this page: reload the page`,
     place: 'kept work',

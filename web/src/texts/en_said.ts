@@ -11,6 +11,7 @@ export const said = {
   taken: (number: number) => `Pose ${number} is taken; undo brings the other one back.`,
   sideKnown: (side: number, count: number, fraction: number) => `Side ${side} of ${count} is known. ${fraction} % of the outline is unknown.`,
   sessionSaved: 'Session saved, with every file it needs.',
+  sessionSavedWithout: (names: string) => `Session saved, but without the bytes of ${names}, of which the page has no copy: keep the originals.`,
   sessionSavedWithoutFiles: 'Session saved; its files are named by digest, keep them.',
   posesSaved: (component: string, frames: number, without: number) =>
     `Poses of the ${component} saved, a row for each of ${frames} frames.${without === 0 ? '' : ` ${without} without a pose: rows of NaN.`}`,

@@ -8,6 +8,7 @@ import { Claims } from '../../src/keep/claims';
 import { changedCells, Keeper, WAIT } from '../../src/keep/keeper';
 import type { CellChange, KeptWork, Shelf } from '../../src/keep/shelf';
 import { framePoint } from '../../src/geometry/points';
+import { ClearedBlob } from '../cleared_blob';
 import { collectGarbage } from '../garbage';
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
@@ -19,7 +20,8 @@ function memory() {
   const cells = new Map<string, Map<string, unknown>>();
   const files = new Set<string>();
   const writes: { work: KeptWork; changes: readonly CellChange[] }[] = [];
-  const trouble: { refuse: Error | null; only?: string } = { refuse: null };
+  /** `added` is called when a file has been added. */
+  const trouble: { refuse: Error | null; only?: string; added?: () => void } = { refuse: null };
   const put = (work: KeptWork, changes: readonly CellChange[], anew: boolean) => {
     if (trouble.refuse && (trouble.only ?? work.name) === work.name) throw trouble.refuse;
     const before = works.get(work.id)?.savedAt ?? null;
@@ -33,12 +35,17 @@ function memory() {
   const shelf = {
     write: async (work: KeptWork, changes: readonly CellChange[]) => put(work, changes, false),
     writeWhole: async (work: KeptWork, changes: readonly CellChange[]) => void put(work, changes, true),
-    putAside: async (id: string, putAside: boolean) => {
+    putAside: async (id: string) => {
       const work = works.get(id);
-      if (work) works.set(id, { ...work, putAside });
+      if (work) works.set(id, { ...work, putAside: true });
+      return work !== undefined;
     },
     fileDigests: async () => [...files],
-    addFile: async ({ sha256 }: { sha256: string }) => void files.add(sha256),
+    addFile: async ({ sha256, blob }: { sha256: string; blob: Blob }) => {
+      if (blob instanceof ClearedBlob) throw new DOMException('Failed to write blobs', 'DataError');
+      files.add(sha256);
+      trouble.added?.();
+    },
   };
   /** As a browser does whose disk is full. */
   const evict = () => [works, cells, files].forEach((store) => store.clear());
@@ -60,10 +67,16 @@ async function bench(manager = locks()) {
   const store = new Store();
   const assets = new Assets();
   const kept = memory();
-  const keeper = new Keeper({ store, assets }, new Claims(manager), async () => kept.shelf);
+  /** Thrown by turns where the storage is opened. */
+  const closed: Error[] = [];
+  const keeper = new Keeper({ store, assets }, new Claims(manager), async () => {
+    const error = closed.shift();
+    if (error) throw error;
+    return kept.shelf;
+  });
   const { sha256 } = await assets.add('f.png', new Blob([Uint8Array.of(1, 2, 3)]));
   const open = () => store.perform(addFrames([{ id: 'f', name: 'f.png', source: sha256, indexInSource: 0, width: 9, height: 9 }]));
-  return { store, keeper, open, sha256, ...kept };
+  return { store, assets, keeper, open, closed, sha256, ...kept };
 }
 
 const point = (column: number) => addPoint(PLACE, framePoint(column, 1));
@@ -231,6 +244,108 @@ describe('keeper', () => {
     expect(store.ui.keeping.state).toBe('kept');
     expect(cells.get(store.doc.work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1]] } });
     expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('says that nothing waits only when all is there again, where the storage is taken away in the middle of writing', async () => {
+    const { store, keeper, open, works, files, evict, trouble, sha256 } = await bench();
+    let evictions = 0;
+    trouble.added = () => {
+      if (++evictions > 2) return;
+      evict();
+      keeper.lost();
+    };
+    const seen: unknown[] = [];
+    store.subscribe(() => store.ui.keeping.state === 'kept' && seen.push([works.size, files.size]));
+    open();
+    await passes(5 * WAIT);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect([...works.keys()]).toEqual([store.doc.work]);
+    expect(files).toEqual(new Set([sha256]));
+    expect(seen.every((there) => String(there) === '1,1')).toBe(true);
+  });
+
+  it('opens the storage again soon where the browser was still clearing it, and tells nobody', async () => {
+    const { store, open, works, files, closed, sha256 } = await bench();
+    closed.push(...Array.from({ length: 3 }, () => new DOMException('The connection was closed.', 'AbortError')));
+    const said = store.ui.log.length;
+    open();
+    await passes(4 * WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(store.ui.log.length).toBe(said);
+    expect([...works.keys()]).toEqual([store.doc.work]);
+    expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('says that the storage cannot be opened where that goes on, and goes on trying', async () => {
+    const { store, open, works, closed } = await bench();
+    closed.push(...Array.from({ length: 6 }, () => new DOMException('The connection was closed.', 'AbortError')));
+    open();
+    await passes(5 * WAIT);
+    expect(store.ui.keeping.state).toBe('refused');
+    await passes(20_000);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect([...works.keys()]).toEqual([store.doc.work]);
+  });
+
+  it('opens the storage anew where its connection was closed without a word, and writes all of it again', async () => {
+    const { store, open, works, cells, files, evict, trouble, closed, sha256 } = await bench();
+    open();
+    store.perform(point(1));
+    await passes(WAIT + SETTLE);
+    evict();
+    trouble.refuse = new DOMException('The database connection is closing.', 'InvalidStateError');
+    // The one that is opened in its place is open.
+    const { shift } = closed;
+    closed.shift = () => {
+      trouble.refuse = null;
+      return shift.call(closed);
+    };
+    store.perform(named('goes on'));
+    await passes(2 * WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(works.get(store.doc.work)?.name).toBe('goes on');
+    expect(cells.get(store.doc.work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1]] } });
+    expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('names the files that went with the storage, keeps all else, and takes the originals when they are dropped', async () => {
+    const { store, assets, keeper, open, works, files, evict, sha256 } = await bench();
+    const bytes = Uint8Array.of(4, 5, 6);
+    const other = await assets.add('g.png', new Blob([bytes]));
+    open();
+    store.perform(addFrames([{ id: 'g', name: 'g.png', source: other.sha256, indexInSource: 0, width: 9, height: 9 }]));
+    Object.assign(assets.get(sha256)!, { blob: new ClearedBlob() });
+    files.add(sha256);
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    evict();
+    keeper.lost();
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping).toMatchObject({ state: 'refused', sentence: expect.stringMatching(/no copy any more of f\.png, .* drop the original on/) });
+    expect(store.ui.notice?.text).toMatch(/f\.png/);
+    expect([...works.keys()]).toEqual([store.doc.work]);
+    expect(files).toEqual(new Set([other.sha256]));
+    const said = store.ui.log.length;
+    await passes(10_000);
+    expect(store.ui.keeping.state).toBe('refused');
+    expect(store.ui.log.length).toBe(said);
+    await assets.add('f.png', new Blob([Uint8Array.of(1, 2, 3)]));
+    await passes(10_000);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(files).toEqual(new Set([sha256, other.sha256]));
+  });
+
+  it('writes what is left again where it is gone without a word, aside', async () => {
+    const { store, open, works, files, evict, sha256 } = await bench();
+    open();
+    await passes(WAIT + SETTLE);
+    evict();
+    const { work } = store.doc;
+    store.perform(START_ANEW);
+    await passes(WAIT + SETTLE);
+    expect(works.get(work)).toMatchObject({ putAside: true });
+    expect(files).toEqual(new Set([sha256]));
+    expect(store.ui.keeping.state).toBe('nothing');
   });
 
   it('adds a file again that another tab swept away while no work named it', async () => {
