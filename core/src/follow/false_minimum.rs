@@ -7,7 +7,7 @@ use core::ops::Range;
 use super::cell::{Anchor, Cell};
 use super::side_margin::{SideMargin, side_margin};
 use super::side_samples::{SideSample, evidence_of, runs_to_go_over};
-use super::sides::{Side, SideStep, choose_sides};
+use super::sides::{ONE_DEG, Side, SideEvidence, SideStep, choose_sides};
 use crate::math::ln;
 
 /// So often a film may go over to what was seen elsewhere: from one minimum to another, and from there once more.
@@ -38,7 +38,21 @@ fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
     let evidence = evidence_of(samples, |_, _| None);
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
+    for (at, step) in steps.iter_mut().enumerate() {
+        if stands_alone(&evidence, at) {
+            step.margin = step.margin.min(evidence[at].for_own().abs());
+        }
+    }
     steps
+}
+
+/// Whether the trail turns out of the image plane both to a frame and on from it as far as two poses are apart: frames beside it do not speak
+/// for its pose then.
+fn stands_alone(evidence: &[SideEvidence], at: usize) -> bool {
+    let from_before = |at: usize| evidence.get(at).map(|one| one.turn_deg >= ONE_DEG);
+    let beside = [from_before(at).filter(|_| at > 0), from_before(at + 1)];
+    let mut beside = beside.into_iter().flatten().peekable();
+    beside.peek().is_some() && beside.all(|is_far| is_far)
 }
 
 /// Whether another way through some frames leaves less than the one before: over those in which both have the component; or
@@ -103,6 +117,19 @@ mod tests {
                 .iter()
                 .all(|margin| margin.is_some_and(|one| one.margin > 1.0))
         );
+    }
+
+    #[test]
+    fn a_frame_that_the_trail_rocks_to_speaks_for_itself() {
+        let mut still = film(&[1.05; 7]);
+        let margin =
+            |samples: &[SideSample]| elsewhere_margins(samples, 14)[7].map(|one| one.margin);
+        assert!(margin(&still).is_some_and(|margin| margin > 1.0));
+        still[3].own = turned(-9.0, 0.6);
+        still[3].other = Some(turned(-17.0, 0.6 * 1.05));
+        assert!(margin(&still).is_some_and(|margin| margin < 1.0));
+        still[3].other = Some(turned(-17.0, 0.6 * 1.3));
+        assert!(margin(&still).is_some_and(|margin| margin > 1.0));
     }
 
     #[test]

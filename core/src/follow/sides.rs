@@ -86,7 +86,7 @@ pub(super) const MOST: f64 = 2.0;
 
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.
-    fn for_own(&self) -> f64 {
+    pub(super) fn for_own(&self) -> f64 {
         self.told() * self.for_own_of_two()
     }
 
