@@ -41,7 +41,7 @@ pub fn elsewhere(
     let known = || core::iter::once(own).chain(mirrored);
     let mut best: Option<FramePose> = None;
     let around = near_elsewhere(subject, image, known().map(|known| &known.pose), memory);
-    let valley = along_valley(own, &subject.model.bounds().centre);
+    let valley = along_valley(own.known(), &subject.model.bounds().centre);
     for near in around.into_iter().chain(valley) {
         let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
         let Some(found) = refined_within(most_px, subject, image, (&near, From::Near), memory)

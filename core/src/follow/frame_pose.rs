@@ -36,6 +36,11 @@ const WORST_PX2: f64 = 2.5 * 2.5 / 6.0;
 const SAME_DEG: f64 = 1.0;
 
 impl FramePose {
+    /// The pose with its covariance.
+    pub(super) fn known(&self) -> (&Pose, Option<&PoseCovariance>) {
+        (&self.pose, self.covariance.as_ref())
+    }
+
     /// By what poses of a frame are compared, the greatest first: strength of the edges, multiplied by how near they lie.
     #[must_use]
     pub fn score(&self) -> f64 {
@@ -200,7 +205,7 @@ fn least_along_valley(
     memory: &mut RefineMemory<'_>,
 ) -> FramePose {
     let mut least = *one;
-    for start in along_valley(one, &subject.model.bounds().centre) {
+    for start in along_valley(one.known(), &subject.model.bounds().centre) {
         let start = (&start, From::Near);
         let found = refined_within(least.misfit_px, subject, image, start, memory);
         let off = |found: &FramePose| geodesic_deg(&found.pose.rotation, &other.pose.rotation);

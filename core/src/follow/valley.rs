@@ -5,7 +5,6 @@
 
 use heapless::Vec;
 
-use super::frame_pose::FramePose;
 use crate::finder::nearby::about;
 use crate::math::eigen::eigen_symmetric;
 use crate::math::{Vector3, apply, radians, scale, sqrt};
@@ -19,10 +18,13 @@ const VALLEY_DEVIATIONS: f64 = 2.0;
 const VALLEY: usize = 4;
 
 /// Starts along the turn that the frame tells least of, where its equations see the same all along: other minima lie there.
-pub(super) fn along_valley(own: &FramePose, middle: &Vector3) -> Vec<Pose, VALLEY> {
-    let step = own.covariance.and_then(|covariance| valley(&covariance));
+pub(super) fn along_valley(
+    (pose, covariance): (&Pose, Option<&PoseCovariance>),
+    middle: &Vector3,
+) -> Vec<Pose, VALLEY> {
+    let step = covariance.and_then(valley);
     let start = |by: f64, [turn, shift]: &[Vector3; 2]| {
-        about(middle, &own.pose, &scale(turn, by), scale(shift, by))
+        about(middle, pose, &scale(turn, by), scale(shift, by))
     };
     let starts = step.iter().flat_map(|(deviation, step)| {
         let far = radians(VALLEY_DEG);
@@ -41,4 +43,42 @@ fn valley(covariance: &PoseCovariance) -> Option<(f64, [Vector3; 2])> {
     let ([most, ..], [turn, ..]) = eigen_symmetric(&block(0));
     let shift = scale(&apply(&block(3), &turn), 1.0 / most);
     (most > 0.0).then(|| (sqrt(most), [turn, shift]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::turned;
+    use crate::pose::geodesic_deg;
+
+    #[test]
+    fn starts_lie_along_the_turn_that_is_known_least_with_the_shift_that_goes_with_it() {
+        let pose = turned(0.0, 0.1).pose;
+        let deviation = radians(0.4);
+        let mut matrix = [[0.0; 6]; 6];
+        for (k, row) in matrix.iter_mut().enumerate() {
+            row[k] = radians(0.1) * radians(0.1);
+        }
+        // A turn about y of one radian goes with 50 mm of depth.
+        matrix[1][1] = deviation * deviation;
+        (matrix[1][5], matrix[5][1]) = (50.0 * matrix[1][1], 50.0 * matrix[1][1]);
+        let covariance = PoseCovariance { matrix };
+        let starts = along_valley((&pose, Some(&covariance)), &[0.0; 3]);
+        let turns = starts
+            .iter()
+            .map(|start| geodesic_deg(&start.rotation, &pose.rotation));
+        for (turn, expected) in turns.zip([5.0, 5.0, 0.8, 0.8]) {
+            assert!((turn - expected).abs() < 1e-6, "{turn} for {expected}");
+        }
+        for start in &starts {
+            let [x, y, z] = start.translation;
+            // The turn about y, to the right-hand side, is what x of the third axis tells.
+            let by = start.rotation[0][2].asin();
+            assert!(
+                x.abs() + y.abs() < 1e-9 && (z + 1000.0 - 50.0 * by).abs() < 1e-6,
+                "{start:?}"
+            );
+        }
+        assert!(along_valley((&pose, None), &[0.0; 3]).is_empty());
+    }
 }
