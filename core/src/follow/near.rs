@@ -389,5 +389,24 @@ mod tests {
                 prop_assert!(px < HALF_PX + 0.5, "{px} px: {settled:?}");
             }
         }
+
+        /// The naive way is to ask every sample.
+        #[test]
+        fn what_is_given_up_early_would_not_have_been_more(
+            plate_at in proptest::array::uniform2(-30.0..30.0f64), plate_deg in -40.0..40.0f64,
+            shift in proptest::array::uniform2(-70.0..70.0f64), turn_deg in -40.0..40.0f64, least in -0.3..1.1f64,
+        ) {
+            let pixels = plate(plate_at, plate_deg);
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
+            let image = ImageTarget { frame: &frame, unknown: None, polarity: Polarity::DarkImplant, film: None };
+            let outline = outline();
+            let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
+            let turned = outline.turned(radians(turn_deg));
+            let [naive, early] = [f64::MIN, least].map(|least| sliding.score_above(least, &turned, shift));
+            match early {
+                Some(_) => prop_assert_eq!(early, naive),
+                None => prop_assert!(naive.is_none_or(|naive| naive <= least + 1e-9), "{naive:?}"),
+            }
+        }
     }
 }

@@ -5,15 +5,11 @@ use super::candidates::{SAME_ANSWER, keep};
 use super::error::OneClickError;
 use super::memory::OneClickMemory;
 use super::observation::Observation;
+use super::rounds::drawn_at;
 use super::state::OneClick;
-use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::follow::{JointPlaces, Subject};
-use fluoropose::image::mask::{Mask, MaskMut, words_needed};
-use fluoropose::mesh::Model;
-use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, RefineMemory};
-use fluoropose::render::render;
+use fluoropose::refine::ImageTarget;
 
 impl OneClick {
     /// The component is looked for as well where its joint leaves it in this frame.
@@ -88,19 +84,4 @@ impl OneClick {
         }
         Ok(true)
     }
-}
-
-/// The model's silhouette at a pose; `None` where it cannot be drawn.
-fn drawn_at<'m>(
-    pose: &Pose,
-    model: &Model<'_>,
-    camera: &Camera,
-    memory: &'m mut RefineMemory<'_>,
-) -> Option<Mask<'m>> {
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.drawn.get_mut(..words_needed(width, height))?;
-    let mut drawn = MaskMut::new(words, width, height).ok()?;
-    drawn.clear();
-    render(model, camera, pose, memory.projected, &mut drawn).ok()?;
-    Some(drawn.into_mask())
 }

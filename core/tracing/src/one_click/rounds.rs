@@ -6,14 +6,16 @@ use super::memory::OneClickMemory;
 use super::observation::Observation;
 use super::prompt::Prompt;
 use super::state::{OneClick, Stage};
+use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
-use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use fluoropose::math::{Vector3, apply, multiply, radians, rotation_by, sin_cos};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::is_nearly_symmetric;
 use fluoropose::pose::Pose;
+use fluoropose::refine::RefineMemory;
 use fluoropose::render::render;
 
 /// Once an answer has this score, no further round is tried.
@@ -248,6 +250,20 @@ fn turned(pose: &Pose, turn: &Vector3, times: f64, model: &Model<'_>) -> Pose {
     }
 }
 
+/// The model's silhouette at a pose; `None` where it cannot be drawn.
+pub(super) fn drawn_at<'m>(
+    pose: &Pose,
+    model: &Model<'_>,
+    camera: &Camera,
+    memory: &'m mut RefineMemory<'_>,
+) -> Option<Mask<'m>> {
+    let (width, height) = (camera.width(), camera.height());
+    let words = memory.drawn.get_mut(..words_needed(width, height))?;
+    let mut drawn = MaskMut::new(words, width, height).ok()?;
+    render(model, camera, pose, memory.projected, &mut drawn).ok()?;
+    Some(drawn.into_mask())
+}
+
 /// Left, top, right and bottom of a rough box around the model at a pose.
 fn sides_of(
     pose: &Pose,
@@ -255,19 +271,13 @@ fn sides_of(
     component: &Component<'_>,
     memory: &mut OneClickMemory<'_>,
 ) -> Option<[f64; 4]> {
-    let (width, height) = (observation.camera.width(), observation.camera.height());
-    let words = memory.refine.drawn.get_mut(..words_needed(width, height))?;
-    let mut drawn = MaskMut::new(words, width, height).ok()?;
-    let projected = &mut *memory.refine.projected;
-    render(
+    let drawn = drawn_at(
+        pose,
         component.model,
         observation.camera,
-        pose,
-        projected,
-        &mut drawn,
-    )
-    .ok()?;
-    let (columns, rows) = drawn.as_mask().bounds();
+        &mut memory.refine,
+    )?;
+    let (columns, rows) = drawn.bounds();
     let margin = MARGIN * columns.len().max(rows.len()) as f64;
     let [low, high] = [-margin, margin];
     Some([
