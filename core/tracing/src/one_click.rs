@@ -24,6 +24,7 @@
 //! ```
 
 // In the order of the data.
+mod drawn;
 mod error;
 mod observation;
 

@@ -2,10 +2,10 @@
 //! lie, is no region.
 
 use super::candidates::{SAME_ANSWER, keep};
+use super::drawn::drawn_at;
 use super::error::OneClickError;
 use super::memory::OneClickMemory;
 use super::observation::Observation;
-use super::rounds::drawn_at;
 use super::state::OneClick;
 use fluoropose::finder::Component;
 use fluoropose::follow::{JointPlaces, Subject};

@@ -1,22 +1,19 @@
 //! Poses scored and refined, round after round.
 
 use super::candidates::{Answer, LocatedPose, SAME_ANSWER, SAME_START, Start, keep};
+use super::drawn::drawn_at;
 use super::error::OneClickError;
 use super::memory::OneClickMemory;
 use super::observation::Observation;
 use super::prompt::Prompt;
 use super::state::{OneClick, Stage};
-use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
-use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use fluoropose::math::{Vector3, apply, multiply, radians, rotation_by, sin_cos};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::is_nearly_symmetric;
 use fluoropose::pose::Pose;
-use fluoropose::refine::RefineMemory;
-use fluoropose::render::render;
 
 /// Once an answer has this score, no further round is tried.
 const CONVINCING: f64 = 0.6;
@@ -248,20 +245,6 @@ fn turned(pose: &Pose, turn: &Vector3, times: f64, model: &Model<'_>) -> Pose {
         rotation,
         translation: core::array::from_fn(|k| times * centre[k] - moved[k]),
     }
-}
-
-/// The model's silhouette at a pose; `None` where it cannot be drawn.
-pub(super) fn drawn_at<'m>(
-    pose: &Pose,
-    model: &Model<'_>,
-    camera: &Camera,
-    memory: &'m mut RefineMemory<'_>,
-) -> Option<Mask<'m>> {
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.drawn.get_mut(..words_needed(width, height))?;
-    let mut drawn = MaskMut::new(words, width, height).ok()?;
-    render(model, camera, pose, memory.projected, &mut drawn).ok()?;
-    Some(drawn.into_mask())
 }
 
 /// Left, top, right and bottom of a rough box around the model at a pose.
