@@ -40,7 +40,7 @@ fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
     choose_sides(&evidence, &mut steps);
     for (at, step) in steps.iter_mut().enumerate() {
         if stands_alone(&evidence, at) {
-            step.margin = step.margin.min(evidence[at].for_own().abs());
+            step.speaks_for_itself(&evidence[at]);
         }
     }
     steps
@@ -130,6 +130,16 @@ mod tests {
         assert!(margin(&still).is_some_and(|margin| margin < 1.0));
         still[3].other = Some(turned(-17.0, 0.6 * 1.3));
         assert!(margin(&still).is_some_and(|margin| margin > 1.0));
+    }
+
+    /// The first frame of a film, in a minimum that leaves twice as much as what was seen elsewhere.
+    #[test]
+    fn a_frame_that_the_trail_rocks_from_goes_over_by_itself() {
+        let mut first = film(&[0.5, 1.2, 1.1, 1.15, 1.2]);
+        assert!(runs(&first).is_empty(), "the trail is one way");
+        first[0].own = turned(-9.0, 0.6);
+        first[0].other = Some(turned(0.0, 0.3));
+        assert_eq!(runs(&first).as_slice(), core::slice::from_ref(&(0..3)));
     }
 
     #[test]

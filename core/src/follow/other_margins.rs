@@ -16,8 +16,8 @@ use crate::pose::geodesic_deg;
 /// `steps` is what [`super::choose_sides`] made of them, `beside` was seen from elsewhere; `cells` are the poses of the film now.
 ///
 /// The tilt of a tray errs alike in all frames, and its votes add up: where the side that was not chosen leaves so much less in any frame than is
-/// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where it leaves as much less than the
-/// frame's own pose alone, that pose is off, and open in this frame. So is one that has gone back to the side that was not chosen.
+/// usual on the chosen one that this would decide by itself, the side is open as far as both are apart. Where another pose leaves as much less than
+/// the frame's own alone, that pose is off, and open in this frame. So is one that has gone back to the side that was not chosen.
 #[must_use]
 pub fn other_margins(
     samples: &[SideSample],
@@ -29,22 +29,25 @@ pub fn other_margins(
     let mirrored = |frame: usize| {
         let margin = side_margin(samples, steps, frame)?;
         let nearest = nearest(samples, frame)?;
-        let is_own = samples[nearest].frame == frame;
         let is_open = open[nearest]
-            || is_own && leaves_more(&samples[nearest], cells, f64::MAX)
-            || is_own && is_rejected(&samples[nearest], &steps[nearest], cells);
-        Some(match is_open {
-            true => SideMargin {
-                margin: 0.0,
-                ..margin
-            },
-            false => margin,
-        })
+            || is_better_seen(samples, frame, cells)
+            || is_rejected(samples, steps, frame, cells);
+        Some(if is_open { margin.open() } else { margin })
     };
-    let beside = elsewhere_margins(beside, cells.len());
-    let both = beside.into_iter().enumerate();
-    both.map(|(frame, beside)| nearer_rival(mirrored(frame), beside))
+    let margins = elsewhere_margins(beside, cells.len());
+    let elsewhere = |frame: usize, margin: Option<SideMargin>| {
+        let is_open = is_better_seen(beside, frame, cells);
+        margin.map(|one| if is_open { one.open() } else { one })
+    };
+    let both = margins.into_iter().enumerate();
+    both.map(|(frame, margin)| nearer_rival(mirrored(frame), elsewhere(frame, margin)))
         .collect()
+}
+
+/// Whether another pose that was seen in a frame leaves decisively less than its own.
+fn is_better_seen(samples: &[SideSample], frame: usize, cells: &[Cell]) -> bool {
+    let mut own = samples.iter().filter(|sample| sample.frame == frame);
+    own.any(|sample| leaves_more(sample, cells, f64::MAX))
 }
 
 /// Which samples lie on a stretch between two meetings of both sides in which any leaves decisively less on the side that was not chosen.
@@ -95,11 +98,25 @@ fn leaves_more(sample: &SideSample, cells: &[Cell], usual_px: f64) -> bool {
     })
 }
 
-/// Whether the pose of a frame has gone back to the side that was not chosen.
-fn is_rejected(sample: &SideSample, step: &SideStep, cells: &[Cell]) -> bool {
-    let cell = cells.get(sample.frame).filter(|cell| !cell.fixed);
-    let now = cell.and_then(Cell::found);
-    now.is_some_and(|now| sample.chosen_but_left(step.side, now).is_some())
+/// Whether the pose of a frame has gone back to the side that was not chosen; of one that was not seen from both sides, by the samples before
+/// and behind it.
+fn is_rejected(samples: &[SideSample], steps: &[SideStep], frame: usize, cells: &[Cell]) -> bool {
+    let cell = cells.get(frame).filter(|cell| !cell.fixed);
+    let Some(now) = cell.and_then(Cell::found) else {
+        return false;
+    };
+    let of = |at: usize| Some((samples.get(at)?, steps.get(at)?.side));
+    let behind = samples.partition_point(|sample| sample.frame < frame);
+    if let Some((sample, side)) = of(behind).filter(|(sample, _)| sample.frame == frame) {
+        return sample.chosen_but_left(side, now).is_some();
+    }
+    let before = behind.checked_sub(1);
+    let mut beside = [before, Some(behind)]
+        .into_iter()
+        .filter_map(|at| of(at?))
+        .filter_map(|(sample, side)| sample.leads_to_rejected(side, now))
+        .peekable();
+    beside.peek().is_some() && beside.all(|is_rejected| is_rejected)
 }
 
 #[cfg(test)]
@@ -165,6 +182,46 @@ mod tests {
         assert_eq!(margin(&cells), Some(5.0));
         cells[5] = Cell::from(&Anchor::found(5, turned(39.0, CHOSEN)));
         assert_eq!(margin(&cells), Some(0.0));
+    }
+
+    /// Frames 0, 3 and 6 were seen from both sides.
+    #[test]
+    fn a_pose_between_two_that_were_seen_is_open_on_the_side_that_was_not_chosen() {
+        let (all, mut cells) = film([0.9; 7], None);
+        let seen = |apart_deg: f64| -> Vec<SideSample> {
+            let some = all.iter().filter(|sample| sample.frame % 3 == 0);
+            some.map(|sample| SideSample {
+                other: Some(turned(apart_deg, 0.9)),
+                ..*sample
+            })
+            .collect()
+        };
+        let mut steps = [SideStep::default(); 3];
+        steps.iter_mut().for_each(|step| step.margin = 5.0);
+        let margin = |cells: &[Cell], apart_deg: f64| {
+            let margins = other_margins(&seen(apart_deg), &steps, &[], cells);
+            margins[4].map(|one| one.margin)
+        };
+        assert_eq!(margin(&cells, 6.0), Some(5.0));
+        cells[4] = Cell::from(&Anchor::found(4, turned(5.0, CHOSEN)));
+        assert_eq!(margin(&cells, 6.0), Some(0.0));
+        assert_eq!(margin(&cells, 3.0), Some(5.0), "both sides are one");
+        cells[4].fixed = true;
+        assert_eq!(margin(&cells, 6.0), Some(5.0));
+    }
+
+    #[test]
+    fn a_pose_that_leaves_decisively_more_than_one_elsewhere_is_open() {
+        let margin = |left: f64| {
+            let (mut samples, cells) = film([1.2; 7], None);
+            samples
+                .iter_mut()
+                .for_each(|sample| sample.rival = Rival::Elsewhere);
+            samples[3].other = Some(turned(7.0, left));
+            other_margins(&[], &[], &samples, &cells)[3].map(|one| one.margin)
+        };
+        assert!(margin(0.55).is_some_and(|margin| margin > 1.0));
+        assert_eq!(margin(0.4), Some(0.0));
     }
 
     #[test]

@@ -19,6 +19,9 @@ use super::side_samples::{SideSample, evidence_of, frames_for_sides, runs_to_go_
 use super::sides::{Rival, SideStep, choose_sides};
 use crate::math::Vector3;
 
+/// So often sides are chosen anew where a way that went over rocks.
+const SIDES_AGAIN: usize = 2;
+
 /// What is to be done next.
 #[derive(Clone, Debug)]
 pub enum SettlingStep {
@@ -64,6 +67,8 @@ pub struct Settling {
     phase: Phase,
     /// So often frames may still go over to what was seen elsewhere.
     rounds: usize,
+    /// So often sides may still be chosen anew where the way rocks then.
+    sides_again: usize,
     /// From where jumps are still to be crossed, and whether forward; none where that is not told yet.
     to_cross: Option<VecDeque<(usize, bool)>>,
     samples: Vec<SideSample>,
@@ -85,6 +90,7 @@ impl Settling {
             range,
             phase: Phase::CrossWay,
             rounds: ROUNDS,
+            sides_again: SIDES_AGAIN,
             to_cross: None,
             samples: Vec::new(),
             steps: Vec::new(),
@@ -107,7 +113,7 @@ impl Settling {
                 }
                 Phase::Stay => {
                     self.stay(cells);
-                    (None, Phase::Elsewhere)
+                    (None, self.after_sides(cells))
                 }
                 Phase::Elsewhere => (self.unseen(Rival::Elsewhere, cells), Phase::GoElsewhere),
                 Phase::GoElsewhere => self.go_elsewhere(cells),
@@ -235,6 +241,21 @@ impl Settling {
             if let Some(chosen) = now.and_then(|now| sample.chosen_but_left(step.side, now)) {
                 cell.improve(chosen);
             }
+        }
+    }
+
+    /// A way on the other side may rock where the one before did not: those frames are seen from both sides too, and sides chosen once more.
+    fn after_sides(&mut self, cells: &[Cell]) -> Phase {
+        let is_seen = |frame: &usize| self.both_sides_of(*frame).is_some();
+        let rocks_anew = frames_for_sides(cells)
+            .filter(|frame| self.range.contains(frame))
+            .any(|frame| !is_seen(&frame));
+        match rocks_anew && self.sides_again > 0 {
+            true => {
+                self.sides_again -= 1;
+                Phase::Sides
+            }
+            false => Phase::Elsewhere,
         }
     }
 
@@ -396,6 +417,40 @@ mod tests {
         for (frame, cell) in cells.iter().enumerate().skip(4) {
             assert_eq!(cell.found(), Some(&other(frame)));
         }
+    }
+
+    /// Seen are frames 2, 6, 10 and so on; then the way comes to another pose in frame 12.
+    #[test]
+    fn a_way_that_rocks_after_sides_were_chosen_is_seen_from_both_sides_there() {
+        let mut cells: Vec<Cell> = (0..24)
+            .map(|_| Cell::on_the_way(looked(Ok(turned(0.0, 0.2)))))
+            .collect();
+        let mut settling = Settling::new([0.0; 3], 0..24);
+        let see = |settling: &mut Settling, cells: &mut [Cell]| {
+            let Some(SettlingStep::See(Rival::Mirrored, frames)) = settling.next(cells) else {
+                return Vec::new();
+            };
+            for &frame in &frames {
+                let own = *cells[frame].found().expect("it was seen");
+                let (rival, other) = (Rival::Mirrored, Some(turned(7.0, 0.4)));
+                settling.saw(SideSample {
+                    frame,
+                    own,
+                    rival,
+                    other,
+                    fixed: false,
+                });
+            }
+            frames
+        };
+        assert_eq!(see(&mut settling, &mut cells), [2, 6, 10, 14, 18, 22]);
+        settling.next(&mut cells);
+        settling.choose(None);
+        cells[12] = Cell::on_the_way(looked(Ok(turned(6.0, 0.2))));
+        assert_eq!(see(&mut settling, &mut cells), [11, 12, 13]);
+        settling.next(&mut cells);
+        settling.choose(None);
+        assert_eq!(see(&mut settling, &mut cells), [], "each is seen once");
     }
 
     #[test]

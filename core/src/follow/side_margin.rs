@@ -15,6 +15,17 @@ pub struct SideMargin {
     pub margin: f64,
 }
 
+#[cfg(feature = "alloc")]
+impl SideMargin {
+    /// The same where either pose may be the right one.
+    pub(super) fn open(self) -> Self {
+        Self {
+            margin: 0.0,
+            ..self
+        }
+    }
+}
+
 /// By how much the other pose of a frame is less likely, by the nearest frame that was seen with it; `None` where there is
 /// none.
 #[cfg(feature = "alloc")]

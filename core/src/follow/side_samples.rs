@@ -7,11 +7,8 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
-#[cfg(feature = "alloc")]
-use super::sides::ONE_DEG;
-use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
-#[cfg(feature = "alloc")]
-use crate::math::{atan2, cross, degrees, dot, norm};
+use super::sides::{ONE_DEG, Rival, Side, SideEvidence, SideFigures, SideStep};
+use crate::math::{Vector3, add, atan2, cross, degrees, dot, norm};
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -65,18 +62,20 @@ impl SideSample {
             apart_deg: other.map_or(180.0, apart),
             rival: self.rival,
             went_over: false,
+            is_told: 1.0,
             goes_on: [false; 2],
             turn_deg: 0.0,
         }
     }
 
-    /// Whether the trail has gone over to the other side between an earlier frame and this one: each pose is much nearer to the other
-    /// one of the other frame. Where the part turns as far between the two as its sides are apart, the side that it is seen from tells:
-    /// limbs swing in the image plane, and mirror images differ out of it.
+    /// Whether the trail has gone over to the other side between an earlier frame and this one, and how sure that is, 0 to 1: each pose is
+    /// nearer to the other one of the other frame. Where the part turns as far between the two as its sides are apart, the side that it
+    /// is seen from tells: limbs swing in the image plane, and mirror images differ out of it.
     #[cfg(feature = "alloc")]
-    fn went_over_since(&self, before: &Self) -> bool {
-        let (Some(other), Some(before_other)) = (&self.other, &before.other) else {
-            return false;
+    fn went_over_since(&self, before: &Self) -> (bool, f64) {
+        let both = self.other.as_ref().zip(before.other.as_ref());
+        let Some((other, before_other)) = both.filter(|_| self.rival == Rival::Mirrored) else {
+            return (false, 1.0);
         };
         let ways = |apart: &dyn Fn(&Pose, &Pose) -> f64| {
             let of = |a: &FramePose, b: &FramePose| apart(&a.pose, &b.pose);
@@ -84,13 +83,16 @@ impl SideSample {
             let crossed = of(&self.own, before_other) + of(other, &before.own);
             [stayed, crossed]
         };
-        let [stayed, crossed] = ways(&|a, b| geodesic_deg(&a.rotation, &b.rotation));
-        let is_told = crossed < CROSSED * stayed || stayed < CROSSED * crossed;
-        let [stayed, crossed] = match is_told {
-            true => [stayed, crossed],
-            false => ways(&|a, b| out_of_plane_deg(a, b)),
+        let told = |[stayed, crossed]: [f64; 2]| {
+            let nearer = stayed.min(crossed) / stayed.max(crossed).max(f64::MIN_POSITIVE);
+            let is_told = ((1.0 - nearer) / (1.0 - CROSSED)).min(1.0);
+            (crossed < stayed, is_told)
         };
-        self.rival == Rival::Mirrored && crossed < CROSSED * stayed
+        let by_all = told(ways(&|a, b| geodesic_deg(&a.rotation, &b.rotation)));
+        match by_all.1 < 1.0 {
+            true => told(ways(&|a, b| out_of_plane_deg(a, b))),
+            false => by_all,
+        }
     }
 
     /// Whether the other pose goes on from the trail of an earlier frame, and the trail from the other pose there, rather than the trail from
@@ -114,14 +116,32 @@ impl SideSample {
     /// The pose on the side that was chosen, where that of the frame `now` is rather the rejected one's.
     #[cfg(feature = "alloc")]
     pub(super) fn chosen_but_left(&self, side: Side, now: &FramePose) -> Option<FramePose> {
-        let other = self.free().filter(|_| self.rival == Rival::Mirrored)?;
-        let (chosen, rejected) = match side {
-            Side::Own => (self.own, other),
-            Side::Mirrored => (other, self.own),
-        };
         let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
-        let are_two = deg(&chosen, &rejected) >= ONE_DEG;
-        (are_two && deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
+        let [chosen, rejected] = self.two_sides(side, deg)?;
+        (deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
+    }
+
+    /// Whether the pose of a frame near by is rather on the side that was rejected, by where it is seen from; `None` where both sides are one.
+    #[cfg(feature = "alloc")]
+    pub(super) fn leads_to_rejected(&self, side: Side, near: &FramePose) -> Option<bool> {
+        let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose);
+        let [chosen, rejected] = self.two_sides(side, deg)?;
+        Some(deg(near, &rejected) < CROSSED * deg(near, &chosen))
+    }
+
+    /// What was chosen and what was rejected, where these are two.
+    #[cfg(feature = "alloc")]
+    fn two_sides(
+        &self,
+        side: Side,
+        deg: impl Fn(&FramePose, &FramePose) -> f64,
+    ) -> Option<[FramePose; 2]> {
+        let other = self.free().filter(|_| self.rival == Rival::Mirrored)?;
+        let both = match side {
+            Side::Own => [self.own, other],
+            Side::Mirrored => [other, self.own],
+        };
+        (deg(&self.own, &other) >= ONE_DEG).then_some(both)
     }
 
     /// The other pose; none where a person has chosen.
@@ -143,7 +163,12 @@ impl SideSample {
 #[cfg(feature = "alloc")]
 fn out_of_plane_deg(a: &Pose, b: &Pose) -> f64 {
     let [a, b] = [a, b].map(|pose| pose.rotation[2]);
-    degrees(atan2(norm(&cross(&a, &b)), dot(&a, &b)))
+    between_deg(&a, &b)
+}
+
+/// Angle between two directions of any length, degrees.
+fn between_deg(a: &Vector3, b: &Vector3) -> f64 {
+    degrees(atan2(norm(&cross(a, b)), dot(a, b)))
 }
 
 /// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
@@ -155,23 +180,44 @@ pub(super) fn evidence_of(
 ) -> Vec<SideEvidence> {
     let befores = core::iter::once(None).chain(samples.iter().map(Some));
     let each = samples.iter().zip(befores);
-    let evidence = each.map(|(sample, before)| SideEvidence {
-        went_over: before.is_some_and(|before| sample.went_over_since(before)),
-        goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before)),
-        turn_deg: before.map_or(0.0, |before| {
-            out_of_plane_deg(&before.own.pose, &sample.own.pose)
-        }),
-        ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
+    let evidence = each.map(|(sample, before)| {
+        let (went_over, is_told) =
+            before.map_or((false, 1.0), |before| sample.went_over_since(before));
+        SideEvidence {
+            went_over,
+            is_told,
+            goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before)),
+            turn_deg: before.map_or(0.0, |before| {
+                out_of_plane_deg(&before.own.pose, &sample.own.pose)
+            }),
+            ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
+        }
     });
     evidence.collect()
 }
 
-/// The frames that are to be seen from both sides, in their order.
+/// The frames that are to be seen from both sides, in their order: some all along the film, and those where the trail rocks as if it went
+/// over the mirror and back.
 pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
     let posed = || (0..cells.len()).filter(|&frame| cells[frame].found().is_some());
     let every = (posed().count() / LEAST).clamp(1, EVERY);
-    let wanted = move |&(k, frame): &(usize, usize)| k % every == every / 2 || cells[frame].fixed;
+    let near = |frame: usize| frame.saturating_sub(1)..=frame + 1;
+    let wanted = move |&(k, frame): &(usize, usize)| {
+        let regular = k % every == every / 2;
+        regular || cells[frame].fixed || near(frame).any(|frame| rocks(cells, frame))
+    };
     posed().enumerate().filter(wanted).map(|(_, frame)| frame)
+}
+
+/// Whether a frame lies as far out of the image plane off the way between those beside it as one does where two sides of a mirror that are
+/// two begin to jump: limbs swing fast in that plane, and hardly out of it.
+fn rocks(cells: &[Cell], frame: usize) -> bool {
+    let seen_from = |frame: usize| Some(cells.get(frame)?.found()?.pose.rotation[2]);
+    let off_deg = || {
+        let (before, after) = (seen_from(frame.checked_sub(1)?)?, seen_from(frame + 1)?);
+        Some(between_deg(&add(&before, &after), &seen_from(frame)?))
+    };
+    off_deg().is_some_and(|off| off >= ONE_DEG / 2.0)
 }
 
 /// Runs of frames, of a film of `frames`, in which the other pose is the right one by the `steps` of [`super::choose_sides`], each
@@ -242,6 +288,24 @@ mod tests {
         let runs: Vec<(Range<usize>, Anchor)> = runs_to_go_over(&samples, &steps, 24).collect();
         assert_eq!(runs.len(), 1);
         assert_ne!(runs[0].1.frame, 0);
+    }
+
+    /// A limb that swings by ten degrees a frame, and in one of them is seen from the other side of its mirror.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn frames_to_which_the_trail_rocks_are_seen_from_both_sides() {
+        let film = |rocks_at: Option<usize>| -> Vec<usize> {
+            let cell = |frame: usize| {
+                let mut found = turned(if rocks_at == Some(frame) { 5.0 } else { 0.0 }, 0.5);
+                let swing = rotation_by(&[0.0, 0.0, 0.17 * frame as f64]);
+                found.pose.rotation = multiply(&swing, &found.pose.rotation);
+                Cell::from(&Anchor::found(frame, found))
+            };
+            let cells: Vec<Cell> = (0..32).map(cell).collect();
+            frames_for_sides(&cells).collect()
+        };
+        assert_eq!(film(None), [2, 7, 12, 17, 22, 27]);
+        assert_eq!(film(Some(14)), [2, 7, 12, 13, 14, 15, 16, 17, 22, 27]);
     }
 
     #[cfg(feature = "alloc")]

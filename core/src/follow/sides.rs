@@ -41,6 +41,8 @@ pub struct SideEvidence {
     /// Whether the trail has gone over to the other side since the frame before: one side of the mirror is then the trail there and the
     /// other pose here.
     pub went_over: bool,
+    /// How sure that is, or that it has not, 0 to 1.
+    pub is_told: f64,
     /// Of a pose elsewhere: whether it goes on from the trail of the frame before, and whether the trail goes on from what was elsewhere
     /// there, rather than the trail from itself.
     pub goes_on: [bool; 2],
@@ -83,6 +85,23 @@ pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 const HINT: f64 = 0.25;
 /// The most that one frame says.
 pub(super) const MOST: f64 = 2.0;
+
+impl SideStep {
+    /// Leaves the frame to what it says alone: what frames beside it say counts as far as it says the same.
+    #[cfg(feature = "alloc")]
+    pub(super) fn speaks_for_itself(&mut self, evidence: &SideEvidence) {
+        let own = evidence.for_own();
+        let side = match own < 0.0 {
+            true => Side::Mirrored,
+            false => Side::Own,
+        };
+        self.margin = match side == self.side {
+            true => self.margin.min(own.abs()),
+            false => own.abs(),
+        };
+        self.side = side;
+    }
+}
 
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.
@@ -135,7 +154,7 @@ impl SideEvidence {
         let [meeting, apart] = GO_OVER;
         let over = match self.meet() || next.meet() {
             true => meeting,
-            false => apart,
+            false => meeting + next.is_told * (apart - meeting),
         };
         let [leaves, comes] = next.goes_on.map(|goes_on| if goes_on { 0.0 } else { over });
         let jump = match next.goes_on.contains(&true) {
@@ -217,6 +236,7 @@ mod tests {
             apart_deg,
             rival: Rival::Mirrored,
             went_over: false,
+            is_told: 1.0,
             goes_on: [false; 2],
             turn_deg: 0.0,
         }
@@ -302,6 +322,25 @@ mod tests {
         };
         assert_eq!(sides(&turned), [own; 5]);
         assert_eq!(margins(&turned), margins(&film(true)));
+    }
+
+    /// Of a pose that is on neither side nobody can say which is the trail's.
+    #[test]
+    fn frames_whose_sides_are_not_told_apart_are_not_bound_to_each_other() {
+        let film = |is_told: f64| -> Vec<SideEvidence> {
+            let seen = |frame: usize| match frame {
+                0 => seen(frame, 1.7, Some([0.5, 4.0]), 5.0),
+                _ => SideEvidence {
+                    is_told: if frame == 1 { is_told } else { 1.0 },
+                    ..seen(frame, 0.95, Some([4.0, 0.5]), 5.0)
+                },
+            };
+            (0..8).map(seen).collect()
+        };
+        let first = |is_told: f64| chosen(&film(is_told))[0];
+        assert_eq!(first(1.0).0, Side::Mirrored);
+        let (side, margin) = first(0.1);
+        assert!(side == Side::Own && margin > 1.0, "{margin}");
     }
 
     #[test]

@@ -100,7 +100,7 @@ pub enum Distrust {
     Ways(f64),
     /// It lies off the way between the frames on both sides: degrees, mm.
     Jump(f64, f64),
-    /// The frames on both sides may be another pose's themselves, so that it says little that they agree.
+    /// The frames beside it, one at the end of a film, may be another pose's themselves, so that it says little that they agree.
     Beside,
     /// The edges are fainter than elsewhere in the film: part of the usual strength.
     Faint(f64),
@@ -162,7 +162,7 @@ impl fmt::Display for Distrust {
                 "it lies {deg:.1} degrees and {mm:.1} mm off the way between the frames beside it"
             ),
             Self::Beside => f.write_str(
-                "the frames on both sides are doubtful themselves, so that it says little that they agree",
+                "the frames beside it are doubtful themselves, so that it says little that they agree",
             ),
             Self::Faint(part) => {
                 let percent = 100.0 * part;
@@ -264,13 +264,18 @@ pub fn judge_film(
 
 /// A pose between two that may be others is no better than they are.
 fn doubt_between(film: &[FrameEvidence], trusts: &mut [Trust]) {
-    let mut before = Trust::default();
+    let mut before = None;
     for at in 0..trusts.len().min(film.len()) {
-        let own = trusts[at];
-        let after = trusts.get(at + 1).copied().unwrap_or_default();
-        let stands = film[at].found.is_some() && !film[at].fixed && own.distrust.is_none();
-        if stands && before.may_be_another() && after.may_be_another() {
-            trusts[at].weigh(before.badness.min(after.badness), Distrust::Beside);
+        let own = film[at].found.map(|_| trusts[at]);
+        let has_next = film.get(at + 1).is_some_and(|one| one.found.is_some());
+        let after = trusts.get(at + 1).copied().filter(|_| has_next);
+        let stands = own.filter(|own| !film[at].fixed && own.distrust.is_none());
+        let beside = [before, after].into_iter().flatten();
+        let least_bad = beside.clone().map(|one| one.badness).reduce(f64::min);
+        if let (Some(_), Some(bad)) = (stands, least_bad)
+            && beside.clone().all(|one| one.may_be_another())
+        {
+            trusts[at].weigh(bad, Distrust::Beside);
         }
         before = own;
     }
@@ -489,5 +494,7 @@ mod tests {
             "{own:?}"
         );
         assert_eq!(judged([8.0, 0.0, 0.0])[1].0, None);
+        let [first, ..] = judged([0.0, 8.0, 0.0]);
+        assert_eq!(first.0, Some("beside doubt"), "it has one beside it");
     }
 }
