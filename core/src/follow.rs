@@ -90,7 +90,9 @@ pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
 #[cfg(feature = "alloc")]
 pub use other_margins::other_margins;
-pub use search_order::{RunsToSearch, TRIES, frames_to_search};
+#[cfg(feature = "alloc")]
+pub use search_order::RunsToSearch;
+pub use search_order::{TRIES, frames_to_search};
 pub use search_plan::{
     Ends, FAR, KnownFrame, LED, NOWHERE, Other, Places, Search, SearchPlan, SearchStep, Sought,
     VAIN, WAYS,

@@ -16,7 +16,7 @@ use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
 use super::frame_pose::{FramePose, mirrored_pose};
 use super::known_femur::KnownFemur;
-use super::search_order::{RunsToSearch, frames_to_search};
+use super::search_order::RunsToSearch;
 use super::second_look::SecondLook;
 use super::settling::{Settling, SettlingStep};
 use super::side_samples::SideSample;
@@ -30,8 +30,8 @@ use crate::refine::{ImageTarget, RefineError, RefineMemory};
 enum Phase {
     /// From the poses that were given over all frames.
     Way,
-    /// Runs of frames in which it was not found are searched from this frame on.
-    Search(usize),
+    /// Runs of frames in which it was not found are searched.
+    Search,
     /// It is brought to its right pose.
     Settle,
     Over,
@@ -111,15 +111,15 @@ impl Following {
 
     /// What came of looking for the component in the whole frame that was asked for.
     pub fn searched(&mut self, pose: Option<Pose>) {
-        let Some(Task::Search { run, frames }) = self.tasks.front_mut() else {
+        if !self.is_search() {
             return;
-        };
-        let (Some(frame), run) = (frames.pop(), run.clone()) else {
-            return;
-        };
-        match pose {
-            Some(pose) => self.tasks[0] = Task::Found { frame, pose, run },
-            None => self.runs.missed(&run),
+        }
+        if let Some(Task::Search { frame, run }) = self.tasks.pop_front() {
+            self.runs.searched(frame, &run, pose.is_some());
+            let found = pose.map(|pose| Task::Found { frame, pose, run });
+            found
+                .into_iter()
+                .for_each(|task| self.tasks.push_front(task));
         }
     }
 
@@ -165,8 +165,6 @@ impl Following {
             }
             Some(Task::Found { frame, pose, run }) => {
                 let anchor = task::given(subject, image, (frame, &pose), memory)?;
-                // What is still missing afterwards is searched too.
-                self.phase = Phase::Search(run.start);
                 self.go_through(&anchor, &run);
                 Ok(Some(anchor.found))
             }
@@ -271,10 +269,10 @@ impl Following {
         match self.phase {
             Phase::Way => {
                 self.begin_ways();
-                self.phase = Phase::Search(self.range.start);
+                self.phase = Phase::Search;
             }
-            Phase::Search(from) => match self.begin_search(from) {
-                Some(run) => self.phase = Phase::Search(run.end),
+            Phase::Search => match self.to_search() {
+                Some(search) => self.tasks.push_back(search),
                 None => self.phase = Phase::Settle,
             },
             Phase::Settle => {
@@ -385,19 +383,12 @@ impl Following {
         }
     }
 
-    /// The next run of frames in which it was not found, though it was in others.
-    fn begin_search(&mut self, from: usize) -> Option<Range<usize>> {
-        if !self.searches || self.anchors.is_empty() {
-            return None;
-        }
-        let run = self.runs.next(&self.cells, &(from..self.range.end))?;
-        let frames = frames_to_search(&run).into_iter().rev().collect();
-        let search = Task::Search {
-            run: run.clone(),
-            frames,
-        };
-        self.tasks.push_back(search);
-        Some(run)
+    /// The next frame in which it was not found, though it was in others.
+    fn to_search(&self) -> Option<Task> {
+        let may_search = self.searches && !self.anchors.is_empty();
+        let next = self.runs.next(&self.cells, &self.range);
+        let (frame, run) = next.filter(|_| may_search)?;
+        Some(Task::Search { frame, run })
     }
 
     /// From a frame to both ends of a run of frames.

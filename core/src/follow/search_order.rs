@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use heapless::Vec;
 
+#[cfg(feature = "alloc")]
 use super::cell::Cell;
 
 /// In so many frames of a run at most a component is searched.
@@ -13,6 +14,7 @@ pub const TRIES: usize = 3;
 const SPACING: usize = 6;
 const PART: usize = 4;
 /// Runs of so many frames without a pose are searched in any case.
+#[cfg(feature = "alloc")]
 const LONG: usize = 8;
 
 /// Frames of a run in the order in which they are searched: its middle first, then between those before.
@@ -35,43 +37,73 @@ pub fn frames_to_search(run: &Range<usize>) -> Vec<usize, TRIES> {
     frames
 }
 
-/// Which runs of frames without a pose are searched: long ones, and short ones as long as that leads somewhere. A film of a few frames, far
-/// from each other, has short ones alone; in a long one a component is hidden there for a while.
-#[derive(Clone, Copy, Debug, Default)]
+/// Which frames are searched that lie in runs without a pose: the longest run first, long ones in any case, and short ones as long as that leads
+/// somewhere. A film of a few frames, far from each other, has short ones alone; in a long one a component is hidden there for a while.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug, Default)]
 pub struct RunsToSearch {
-    /// Frames of short runs that were searched in vain.
+    searched: alloc::vec::Vec<usize>,
+    /// Frames of short runs that were searched in vain, since one was not.
     vain: usize,
 }
 
+#[cfg(feature = "alloc")]
 impl RunsToSearch {
-    /// The first run of frames of `range` in which a component was looked for or passed over, and not found, that is worth searching.
+    /// The next frame of `range` that is worth searching, and the run around it in which a component was looked for or passed over, and not
+    /// found. [`Self::searched`] takes what came of it.
     #[must_use]
-    pub fn next(&self, cells: &[Cell], range: &Range<usize>) -> Option<Range<usize>> {
-        let end = range.end.min(cells.len());
-        let mut at = range.start;
-        while at < end {
-            let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
-            let next = (start..end).find(|&frame| cells[frame].found().is_some());
-            let run = start..next.unwrap_or(end);
-            if run.len() >= LONG || self.vain < TRIES {
-                return Some(run);
+    pub fn next(&self, cells: &[Cell], range: &Range<usize>) -> Option<(usize, Range<usize>)> {
+        let is_worth = |run: &Range<usize>| run.len() >= LONG || self.vain < TRIES;
+        let runs = missing_runs(cells, range).filter(is_worth);
+        let each = runs.filter_map(|run| Some((self.next_of(&run)?, run)));
+        // Of those that are as long the first.
+        each.reduce(|one, other| {
+            if other.1.len() > one.1.len() {
+                other
+            } else {
+                one
             }
-            at = run.end;
-        }
-        None
+        })
     }
 
-    /// A frame of a run was searched in vain.
-    pub fn missed(&mut self, run: &Range<usize>) {
-        self.vain += usize::from(run.len() < LONG);
+    /// A frame of a run was searched.
+    pub fn searched(&mut self, frame: usize, run: &Range<usize>, is_found: bool) {
+        self.searched.push(frame);
+        match is_found {
+            true => self.vain = 0,
+            false => self.vain += usize::from(run.len() < LONG),
+        }
     }
+
+    fn next_of(&self, run: &Range<usize>) -> Option<usize> {
+        let searched = self.searched.iter().filter(|frame| run.contains(frame));
+        let may_be = searched.count() < TRIES;
+        let mut frames = frames_to_search(run).into_iter().filter(|_| may_be);
+        frames.find(|frame| !self.searched.contains(frame))
+    }
+}
+
+/// The runs of frames without a pose.
+#[cfg(feature = "alloc")]
+fn missing_runs(cells: &[Cell], range: &Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let end = range.end.min(cells.len());
+    let mut at = range.start;
+    core::iter::from_fn(move || {
+        let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
+        let next = (start..end).find(|&frame| cells[frame].found().is_some());
+        at = next.unwrap_or(end);
+        Some(start..at)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(feature = "alloc")]
     use crate::follow::fake::{looked, turned};
+    #[cfg(feature = "alloc")]
     use crate::follow::look::Missing;
+    #[cfg(feature = "alloc")]
     use std::vec::Vec;
 
     #[test]
@@ -84,24 +116,44 @@ mod tests {
         assert!(frames_to_search(&(5..5)).is_empty());
     }
 
-    #[test]
-    fn long_runs_are_searched_and_short_ones_until_it_is_in_vain() {
+    /// Frames 5 to 9, 20 to 29 and 33 to 38 are missing.
+    #[cfg(feature = "alloc")]
+    fn film() -> Vec<Cell> {
         let found = Ok(turned(0.0, 0.3));
         let cell = |frame| Cell::on_the_way(looked(frame));
-        let cells: Vec<Cell> = (0..40)
-            .map(|frame| match frame {
-                5..=9 | 20..=29 => cell(Err(Missing::Hidden)),
-                _ => cell(found),
-            })
-            .collect();
+        let missing = |frame| match frame {
+            5..=9 | 20..=29 | 33..=38 => cell(Err(Missing::Hidden)),
+            _ => cell(found),
+        };
+        (0..40).map(missing).collect()
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn the_longest_run_comes_first_and_short_ones_are_searched_until_it_is_in_vain() {
+        let cells = film();
         let mut runs = RunsToSearch::default();
-        runs.missed(&(20..30));
-        for _ in 0..TRIES {
-            assert_eq!(runs.next(&cells, &(0..40)), Some(5..10));
-            runs.missed(&(5..10));
+        let mut searched = Vec::new();
+        while let Some((frame, run)) = runs.next(&cells, &(0..40)) {
+            runs.searched(frame, &run, false);
+            searched.push(frame);
         }
-        assert_eq!(runs.next(&cells, &(0..40)), Some(20..30));
-        assert_eq!(runs.next(&cells, &(23..40)), None);
+        assert_eq!(searched, [25, 22, 28, 36, 34, 38]);
         assert_eq!(runs.next(&cells, &(30..40)), None);
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn what_was_found_makes_short_runs_worth_searching_again() {
+        let mut cells = film();
+        let mut runs = RunsToSearch::default();
+        runs.searched(25, &(20..30), true);
+        cells[20..30].copy_from_slice(&film()[10..20]);
+        for frame in [36, 34, 38] {
+            assert_eq!(runs.next(&cells, &(0..40)), Some((frame, 33..39)));
+            runs.searched(frame, &(33..39), frame == 38);
+        }
+        // It was found, though it could not be refined there.
+        assert_eq!(runs.next(&cells, &(0..40)), Some((7, 5..10)));
     }
 }

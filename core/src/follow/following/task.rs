@@ -29,10 +29,10 @@ pub(super) enum Task {
     },
     Walk(Box<Walk>),
     Span(Box<Span>),
-    /// A run of frames in which the component is not: the caller looks for it in the whole of some of them, the last first.
+    /// In a run of frames the component is not: the caller looks for it in the whole of one of them.
     Search {
+        frame: usize,
         run: Range<usize>,
-        frames: Vec<usize>,
     },
     /// A pose that the caller found there is looked at in its frame.
     Found {
@@ -55,11 +55,11 @@ impl Task {
     pub(super) fn wanted(&mut self) -> Option<usize> {
         match self {
             Self::Given { frame, .. }
+            | Self::Search { frame, .. }
             | Self::Found { frame, .. }
             | Self::BothSides(frame)
             | Self::Elsewhere(frame) => Some(*frame),
             Self::Again(look) => Some(look.frame),
-            Self::Search { frames, .. } => frames.last().copied(),
             Self::Walk(walk) => walk.way.next(walk.to),
             Self::Span(span) => span.wanted(),
             Self::Crossing(crossing) => crossing.next(),

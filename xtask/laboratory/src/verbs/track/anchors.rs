@@ -1,9 +1,7 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{
-    Anchor, Cell, FramePose, Places, RunsToSearch, frames_to_search, settled,
-};
+use fluoropose::follow::{Anchor, Cell, FramePose, Places, RunsToSearch, settled};
 use fluoropose::pose::Pose;
 
 use super::follow::{follow, mark};
@@ -131,19 +129,13 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
         return Ok(());
     };
     let depth = Some(part.depth_of(&known.pose));
-    let (mut from, mut runs) = (0, RunsToSearch::default());
-    while let Some(gap) = runs.next(cells, &(from..cells.len())) {
-        from = gap.end;
-        for frame in frames_to_search(&gap) {
-            let Some(found) = searched(run, part, frame, (depth, Places::All), None)? else {
-                runs.missed(&gap);
-                continue;
-            };
+    let mut runs = RunsToSearch::default();
+    while let Some((frame, gap)) = runs.next(cells, &(0..cells.len())) {
+        let found = searched(run, part, frame, (depth, Places::All), None)?;
+        runs.searched(frame, &gap, found.is_some());
+        if let Some(found) = found {
             let anchor = Anchor::found(frame, found);
-            follow(run, part, &[anchor], gap.clone(), cells)?;
-            // What is still missing is searched too.
-            from = gap.start;
-            break;
+            follow(run, part, &[anchor], gap, cells)?;
         }
     }
     Ok(())
