@@ -2,11 +2,11 @@
 //!
 //! Femurs and others first, in whole frames; a tray where its joint leaves it beside a femur that is known, which is sooner and surer than
 //! alone, then in whole frames too. What is still missing is looked for once more in whole frames beside what is known. Where nobody says
-//! how a film shows metal, it is looked for in two ways, dark and bright, frame by frame by turns: whichever shows a component first is
-//! gone on with; where that does not show all, what is found better counts, for a bright thing beside dark ones may be taken for a component.
+//! how a film shows metal, it is looked for in two ways, dark and bright, frame by frame by turns: whichever shows all components first, each
+//! better than the other way, is gone on with; else what is found better counts, for a bright thing beside dark ones may be taken for a component.
 //!
-//! Things of the right shape come first, in all frames and ways: that takes moments. Then come dark places, which are many, and of such
-//! searches no more than [`VAIN`] are done in vain, and none in a way while another one shows something.
+//! Things of the right shape come first, in all frames and ways: that takes moments. Then come dark places, which are many, in the way that
+//! shows more first; of such searches no more than [`VAIN`] are done in vain, and none in a way while another one shows something.
 //!
 //! Whoever drives it asks for the [`SearchPlan::next`] step, does it, and gives its answer.
 
@@ -50,7 +50,6 @@ pub struct SearchPlan {
     /// Number of the visit of a frame, and of the pass in it.
     visit: usize,
     pass: usize,
-    is_begun: bool,
     /// In the pass: whether it has begun, whether it is left out,
     /// the component, the place beside others, the best so far, and about how far away others are.
     in_pass: bool,
@@ -78,7 +77,6 @@ impl SearchPlan {
             alone: None,
             visit: 0,
             pass: 0,
-            is_begun: false,
             in_pass: false,
             is_left_out: false,
             part: 0,
@@ -109,7 +107,7 @@ impl SearchPlan {
             let own = way_of_mut(parts, self.ways, way);
             self.asked = self.step_of_pass(way, frame, own);
             if self.asked.is_none() {
-                self.after_pass(way, own);
+                self.after_pass(way, parts);
             }
         }
         self.asked
@@ -165,20 +163,12 @@ impl SearchPlan {
 
     /// The way and the visit (its place in the list) that are due; `None` where all was visited, or is found.
     fn visited(&mut self, parts: &[Sought]) -> Option<(usize, usize)> {
-        let turns = self.visits.len() * self.ways;
         if self.alone.is_none() {
-            while self.visit < turns {
-                let way = self.visit % self.ways;
-                let leads = |other: usize| !is_empty(way_of(parts, self.ways, other));
-                if self.is_begun || !(0..self.ways).any(|other| other != way && leads(other)) {
-                    self.is_begun = true;
-                    return Some((way, self.visit / self.ways));
-                }
-                self.visit += 1;
+            let shaped = self.visits.len() / 2;
+            if self.visit < shaped * self.ways {
+                return Some((self.visit % self.ways, self.visit / self.ways));
             }
-            let empty = |way: usize| is_empty(way_of(parts, self.ways, way));
-            let turned = self.ways == WAYS && empty(0) && !empty(1);
-            self.alone = Some(if turned { [1, 0] } else { [0, 1] });
+            self.alone = Some(self.order(parts));
             self.visit = 0;
         }
         // One more visit of each looks beside what was found.
@@ -217,7 +207,8 @@ impl SearchPlan {
         }
     }
 
-    fn after_pass(&mut self, way: usize, parts: &[Sought]) {
+    fn after_pass(&mut self, way: usize, all: &[Sought]) {
+        let parts = way_of(all, self.ways, way);
         (self.part, self.pairs, self.in_pass) = (0, Pairs::default(), false);
         let each = self.visits.len() + 1;
         let frame = match self.alone {
@@ -235,15 +226,22 @@ impl SearchPlan {
             self.depth_mm = known.map(|(part, known)| part.depth_mm(&known.pose));
             return;
         }
-        (self.pass, self.is_begun) = (0, false);
+        self.pass = 0;
         self.visit += 1;
         // A way is given up for none but the one that shows all.
-        if is_whole(parts) && (self.alone.is_none() || is_beside) {
-            match self.alone {
-                None => self.done = Some(way),
-                Some(_) => self.visit = each * self.ways,
-            }
+        match self.alone {
+            None if is_whole(parts) && self.shows_better(way, all) => self.done = Some(way),
+            Some(_) if is_whole(parts) && is_beside => self.visit = each * self.ways,
+            _ => {}
         }
+    }
+
+    /// Whether a way shows each component better than the other one.
+    fn shows_better(&self, way: usize, all: &[Sought]) -> bool {
+        let own = way_of(all, self.ways, way);
+        let others = (0..self.ways).filter(|&other| other != way);
+        let mut both = others.flat_map(|other| own.iter().zip(way_of(all, self.ways, other)));
+        both.all(|(own, other)| other.is_missing() || own.best_score() > other.best_score())
     }
 
     /// A component looked for in a whole frame.
@@ -329,17 +327,18 @@ impl SearchPlan {
         }
     }
 
-    /// Of ways that are as good the first of those that were gone through.
-    fn best_way(&self, parts: &[Sought]) -> usize {
-        let mut order = self.alone.unwrap_or([0, 1]);
-        let scores = [0, 1].map(|way| match way < self.ways {
+    /// The ways, the one that shows more first.
+    fn order(&self, parts: &[Sought]) -> [usize; WAYS] {
+        let of = |way: usize| match way < self.ways {
             true => score(way_of(parts, self.ways, way)),
             false => f64::NEG_INFINITY,
-        });
-        if scores[order[1]] > scores[order[0]] {
-            order.swap(0, 1);
-        }
-        order[0]
+        };
+        if of(1) > of(0) { [1, 0] } else { [0, 1] }
+    }
+
+    /// Of ways that are as good the first.
+    fn best_way(&self, parts: &[Sought]) -> usize {
+        self.order(parts)[0]
     }
 }
 
@@ -380,11 +379,7 @@ fn is_whole(parts: &[Sought]) -> bool {
 
 /// How well components are found in all: the sum of what the best frame of each scores.
 fn score(parts: &[Sought]) -> f64 {
-    let best = |part: &Sought| {
-        let scores = part.known.iter().map(|known| known.score);
-        scores.fold(0.0, f64::max)
-    };
-    parts.iter().map(best).sum()
+    parts.iter().map(Sought::best_score).sum()
 }
 
 #[cfg(test)]

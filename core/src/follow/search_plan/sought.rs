@@ -80,6 +80,12 @@ impl Sought {
         self.known.is_empty()
     }
 
+    /// What the best of its frames scores; 0 without any.
+    pub(super) fn best_score(&self) -> f64 {
+        let scores = self.known.iter().map(|known| known.score);
+        scores.fold(0.0, f64::max)
+    }
+
     pub(super) fn leads(&self, to: &Self) -> bool {
         self.is_limb && to.is_limb && self.role != to.role
     }

@@ -235,16 +235,22 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
     let frames = frames_to_search(&(0..frames));
     let of = |places| frames.iter().map(move |&frame| (frame, places));
     let list: Vec<(usize, Places)> = of(Places::Shaped).chain(of(Places::Dark)).collect();
-    for &visit in &list {
+    let best = |sought: &Sought| sought.best_score();
+    for &visit in &list[..frames.len()] {
         for way in 0..ways {
-            let others_lead = (0..ways).any(|other| other != way && !is_empty(&plain[other].parts));
-            if !others_lead && plain[way].alone(visit) {
+            let is_whole = plain[way].alone(visit);
+            let is_better = (0..ways).filter(|&other| other != way).all(|other| {
+                let mut both = plain[way].parts.iter().zip(&plain[other].parts);
+                both.all(|(own, other)| other.is_missing() || best(own) > best(other))
+            });
+            if is_whole && is_better {
                 return end(&plain, way);
             }
         }
     }
     let mut order: Vec<usize> = (0..ways).collect();
-    order.sort_by_key(|&way| is_empty(&plain[way].parts));
+    let of = |way: &usize| score(&plain[*way].parts);
+    order.sort_by(|one, other| of(other).total_cmp(&of(one)));
     for &way in &order {
         let is_led = way != order[0] && !is_empty(&plain[order[0]].parts);
         for &visit in list
@@ -258,6 +264,7 @@ fn by_loops(world: &World, ways: usize, turned: bool, frames: usize) -> Outcome 
         }
     }
     let of = |way: &usize| score(&plain[*way].parts);
+    order.sort_unstable();
     let best = order
         .iter()
         .rev()
