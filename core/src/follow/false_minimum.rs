@@ -14,6 +14,9 @@ use crate::math::ln;
 pub const ROUNDS: usize = 2;
 /// By so much what was seen elsewhere must be more likely.
 const WORTH: f64 = 1.0;
+/// So many frames to either side are asked what they say in the mean, which counts so many times.
+const AROUND: usize = 2;
+const WITNESS: f64 = 2.0;
 
 /// Runs of frames, of a film of `frames`, in which what was seen elsewhere is the right one, each with the frame to follow it
 /// from. They are to be kept where that way [`leaves_less`], and all frames seen anew, at most [`ROUNDS`] times.
@@ -28,7 +31,7 @@ pub fn runs_elsewhere(samples: &[SideSample], frames: usize) -> Vec<(Range<usize
 
 /// By how much what was seen elsewhere is less likely than the trail, in each frame of a film; `None` where nothing was.
 pub(super) fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Option<SideMargin>> {
-    let steps = elsewhere_steps(samples);
+    let steps = as_one_witness(samples, elsewhere_steps(samples));
     let margin = |frame| side_margin(samples, &steps, frame);
     (0..frames).map(margin).collect()
 }
@@ -44,6 +47,31 @@ fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
         }
     }
     steps
+}
+
+/// Those steps, none surer than what their frame and those beside it say in the mean: what a model lacks of its part it lacks in all of them, so
+/// that many which say little say no more than one. Nor is a frame that speaks for the other pose by itself outvoted by them: a trail slides.
+fn as_one_witness(samples: &[SideSample], mut steps: Vec<SideStep>) -> Vec<SideStep> {
+    let evidence = evidence_of(samples, |_, _| None);
+    for (at, step) in steps.iter_mut().enumerate() {
+        let Some(around) = usual_around(samples, &evidence, at) else {
+            continue;
+        };
+        let alone = 1.0 + step.told_by(evidence[at].for_own());
+        let told = alone.min(step.told_by(around)).max(0.0);
+        step.margin = step.margin.min(WITNESS * told);
+    }
+    steps
+}
+
+/// What a frame and those beside it say for the trail in the mean; `None` where nothing else was seen in them.
+fn usual_around(samples: &[SideSample], evidence: &[SideEvidence], at: usize) -> Option<f64> {
+    let around = at.saturating_sub(AROUND)..(at + AROUND + 1).min(evidence.len());
+    let seen = around.filter(|&at| samples[at].free().is_some());
+    let (sum, count) = seen.fold((0.0, 0.0), |(sum, count), at| {
+        (sum + evidence[at].for_own(), count + 1.0)
+    });
+    (count > 0.0).then(|| sum / count)
 }
 
 /// Whether the trail turns out of the image plane both to a frame and on from it as far as two poses are apart: frames beside it do not speak
@@ -140,6 +168,18 @@ mod tests {
         first[0].own = turned(-9.0, 0.6);
         first[0].other = Some(turned(0.0, 0.3));
         assert_eq!(runs(&first).as_slice(), core::slice::from_ref(&(0..3)));
+    }
+
+    #[test]
+    fn many_frames_that_say_little_say_no_more_than_one() {
+        let margins = |ratios: &[f64]| elsewhere_margins(&film(ratios), 2 * ratios.len());
+        let is_open = |one: Option<SideMargin>| one.is_some_and(|one| one.margin < 1.0);
+        assert!(margins(&[1.03; 15]).into_iter().all(is_open));
+        assert!(!margins(&[1.08; 15]).into_iter().any(is_open));
+        let mut one = [1.2; 15];
+        one[7] = 0.93;
+        let open: Vec<usize> = (0..30).filter(|&at| is_open(margins(&one)[at])).collect();
+        assert_eq!(open, [15, 16], "it speaks for the other by itself");
     }
 
     #[test]

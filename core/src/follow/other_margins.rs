@@ -205,7 +205,7 @@ mod tests {
         assert_eq!(margin(&cells, 6.0), Some(5.0));
         cells[4] = Cell::from(&Anchor::found(4, turned(5.0, CHOSEN)));
         assert_eq!(margin(&cells, 6.0), Some(0.0));
-        assert_eq!(margin(&cells, 3.0), Some(5.0), "both sides are one");
+        assert_eq!(margin(&cells, 1.5), Some(5.0), "both sides are one");
         cells[4].fixed = true;
         assert_eq!(margin(&cells, 6.0), Some(5.0));
     }
@@ -220,7 +220,7 @@ mod tests {
             samples[3].other = Some(turned(7.0, left));
             other_margins(&[], &[], &samples, &cells)[3].map(|one| one.margin)
         };
-        assert!(margin(0.55).is_some_and(|margin| margin > 1.0));
+        assert!(margin(0.595).is_some_and(|margin| margin > 1.0));
         assert_eq!(margin(0.4), Some(0.0));
     }
 

@@ -3,15 +3,16 @@
 //! A way from frame to frame takes what is in the ordinary so far, and that may be a small minimum beside the right one. Once all
 //! frames are known such a frame stands out, and those on both sides of it tell where the right one is.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::conclude::{KnownBeside, conclude};
 use super::frame_pose::{FramePose, From, refined_within};
 use super::look::beside;
 use super::motion::between;
 use super::subject::Subject;
 use super::trail::{Usual, apart};
+use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::math::Vector3;
 use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineMemory};
@@ -44,36 +45,50 @@ pub struct SecondLook {
 /// The frames of a film that stand out; `middle` is the model's. What a person gave is as it is.
 #[must_use]
 pub fn second_looks(cells: &[Cell], middle: &Vector3) -> Vec<SecondLook> {
-    let judged = conclude(cells, &[], &KnownBeside::default(), middle);
-    let found: Vec<Option<(FramePose, bool)>> = cells
-        .iter()
-        .zip(&judged)
-        .map(|(cell, one)| Some((*cell.found()?, one.badness <= STANDS_OUT || cell.fixed)))
-        .collect();
-    let ordinary = |frame: usize| found.get(frame).copied()?.filter(|(_, is)| *is);
-    let Some(usual) = usual((0..cells.len()).filter_map(|frame| Some(ordinary(frame)?.0))) else {
+    let trusts = judged(cells, middle);
+    let pose = |at: usize| cells.get(at)?.found();
+    let is_plain = |at: usize| trusts[at].badness <= STANDS_OUT || cells[at].fixed;
+    let plain = |at: usize| pose(at).filter(|_| is_plain(at));
+    // One beside a bad frame jumps, and is good by itself.
+    let fits = |at: usize| pose(at).filter(|_| trusts[at].by_itself <= STANDS_OUT);
+    let known = |at: usize| Some((at, plain(at)?));
+    let Some(usual) = usual((0..cells.len()).filter_map(plain)) else {
         return Vec::new();
     };
-    let one = |(frame, found): (usize, &Option<(FramePose, bool)>)| {
-        let (own, _) = found.filter(|(_, ordinary)| !ordinary)?;
-        let before = (frame.saturating_sub(REACH)..frame)
-            .rev()
-            .find_map(|at| Some((at, ordinary(at)?.0)))?;
-        let after = (frame + 1..=frame + REACH).find_map(|at| Some((at, ordinary(at)?.0)))?;
+    let one = |frame: usize| {
+        let own = pose(frame).filter(|_| !is_plain(frame))?;
+        let before = || (frame.saturating_sub(REACH)..frame).rev();
+        let after = || frame + 1..=frame + REACH;
+        let fit = |at: usize| Some((at, fits(at)?));
+        let before = before()
+            .find_map(known)
+            .or_else(|| before().find_map(fit))?;
+        let after = after().find_map(known).or_else(|| after().find_map(fit))?;
         let fraction = (frame - before.0) as f64 / (after.0 - before.0) as f64;
         Some(SecondLook {
             frame,
-            own,
+            own: *own,
             expected: between(&before.1.pose, &after.1.pose, fraction, middle),
             usual,
         })
     };
-    found.iter().enumerate().filter_map(one).collect()
+    (0..cells.len()).filter_map(one).collect()
+}
+
+/// How far each frame is to be trusted by what its own film says.
+fn judged(cells: &[Cell], middle: &Vector3) -> Vec<Trust> {
+    let evidence = cells.iter().map(|cell| FrameEvidence::of(cell, None, None));
+    let evidence: Vec<FrameEvidence> = evidence.collect();
+    let mut trusts = vec![Trust::default(); cells.len()];
+    let mut sorted = vec![0.0; cells.len()];
+    let limits = TrustLimits::USUAL;
+    judge_film(&evidence, &limits, middle, &mut sorted, &mut trusts);
+    trusts
 }
 
 /// The medians of some poses; `None` without any.
-fn usual(poses: impl Iterator<Item = FramePose>) -> Option<Usual> {
-    let seen: Vec<Usual> = poses.map(|pose| Usual::of(&pose)).collect();
+fn usual<'p>(poses: impl Iterator<Item = &'p FramePose>) -> Option<Usual> {
+    let seen: Vec<Usual> = poses.map(Usual::of).collect();
     let median = |of: fn(&Usual) -> f64| {
         let mut values: Vec<f64> = seen.iter().map(of).collect();
         values.sort_unstable_by(f64::total_cmp);
@@ -163,6 +178,11 @@ mod tests {
             let [deg, mm] = apart(&look.expected, &right.pose, &MIDDLE);
             assert!(deg < 1e-6 && mm < 1e-6, "{deg} {mm}");
         }
+        // Among bad ones a frame jumps, and is good by itself: it leads to those that are farther from the others than that.
+        let bad: Vec<usize> = (4..9).chain(10..15).collect();
+        let looks = second_looks(&film(&bad), &MIDDLE);
+        let frames: Vec<usize> = looks.iter().map(|look| look.frame).collect();
+        assert_eq!(frames, (4..15).collect::<Vec<usize>>());
         // At the end of a film nothing leads to it from both sides, and what a person gave stays.
         assert!(second_looks(&film(&[0, 19]), &MIDDLE).is_empty());
         let mut given = film(&[7]);

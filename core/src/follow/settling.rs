@@ -22,6 +22,9 @@ use crate::math::Vector3;
 /// So often sides are chosen anew where a way that went over rocks.
 const SIDES_AGAIN: usize = 2;
 
+/// So often all is done again where frames that stood out were mended.
+const MENDINGS: usize = 2;
+
 /// What is to be done next.
 #[derive(Clone, Debug)]
 pub enum SettlingStep {
@@ -55,6 +58,8 @@ enum Phase {
     Keep,
     Cross,
     Again,
+    /// What was mended leads to others, and is seen from all sides as well.
+    Mended,
     Over,
 }
 
@@ -69,6 +74,9 @@ pub struct Settling {
     rounds: usize,
     /// So often sides may still be chosen anew where the way rocks then.
     sides_again: usize,
+    /// The frames that were looked at once more, and how often all may still be done again where that led to other poses.
+    looked_again: Vec<SecondLook>,
+    mendings: usize,
     /// From where jumps are still to be crossed, and whether forward; none where that is not told yet.
     to_cross: Option<VecDeque<(usize, bool)>>,
     samples: Vec<SideSample>,
@@ -91,6 +99,8 @@ impl Settling {
             phase: Phase::CrossWay,
             rounds: ROUNDS,
             sides_again: SIDES_AGAIN,
+            looked_again: Vec::new(),
+            mendings: MENDINGS,
             to_cross: None,
             samples: Vec::new(),
             steps: Vec::new(),
@@ -122,7 +132,8 @@ impl Settling {
                     false => (None, Phase::Cross),
                 },
                 Phase::Cross => self.cross(cells, Phase::Again),
-                Phase::Again => (self.to_look_again(cells), Phase::Over),
+                Phase::Again => (self.looks_again(cells), Phase::Mended),
+                Phase::Mended => (None, self.after_mending(cells)),
                 Phase::Over => return None,
             };
             self.phase = phase;
@@ -306,11 +317,24 @@ impl Settling {
         }
     }
 
-    fn to_look_again(&self, cells: &[Cell]) -> Option<SettlingStep> {
+    fn looks_again(&mut self, cells: &[Cell]) -> Option<SettlingStep> {
         let looks = second_looks(cells, &self.middle).into_iter();
         let looks = looks.filter(|look| self.range.contains(&look.frame));
         let looks: Vec<SecondLook> = looks.collect();
+        self.looked_again.clone_from(&looks);
         (!looks.is_empty()).then_some(SettlingStep::LookAgain(looks))
+    }
+
+    fn after_mending(&mut self, cells: &[Cell]) -> Phase {
+        let is_better = |look: &SecondLook| cells[look.frame].found() != Some(&look.own);
+        let any = take(&mut self.looked_again).iter().any(is_better);
+        match any && self.mendings > 0 {
+            true => {
+                self.mendings -= 1;
+                Phase::Sides
+            }
+            false => Phase::Over,
+        }
     }
 
     fn within(&self, run: &Range<usize>) -> Range<usize> {
@@ -451,6 +475,49 @@ mod tests {
         settling.next(&mut cells);
         settling.choose(None);
         assert_eq!(see(&mut settling, &mut cells), [], "each is seen once");
+    }
+
+    /// A frame that leaves more than the others, and less where they lead.
+    #[test]
+    fn what_was_mended_is_seen_from_all_sides_again() {
+        let words = |is_mended: bool| {
+            let mut cells = film();
+            cells[4] = Cell::on_the_way(looked(Ok(turned(4.0, 0.8))));
+            let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+            let mut words = Vec::new();
+            while let Some(step) = settling.next(&mut cells) {
+                match step {
+                    SettlingStep::See(rival, frames) => {
+                        if rival == Rival::Mirrored {
+                            words.push("sides");
+                        }
+                        for frame in frames {
+                            let own = *cells[frame].found().expect("it was seen");
+                            let (other, fixed) = (None, false);
+                            settling.saw(SideSample {
+                                frame,
+                                own,
+                                rival,
+                                other,
+                                fixed,
+                            });
+                        }
+                    }
+                    SettlingStep::LookAgain(looks) => {
+                        assert_eq!(looks.len(), 1);
+                        words.push("again");
+                        if is_mended {
+                            cells[4].improve(turned(4.0, 0.2));
+                        }
+                    }
+                    SettlingStep::Choose => settling.choose(None),
+                    _ => {}
+                }
+            }
+            words
+        };
+        assert_eq!(words(true), ["sides", "again", "sides"]);
+        assert_eq!(words(false), ["sides", "again"]);
     }
 
     #[test]

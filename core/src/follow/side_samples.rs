@@ -7,6 +7,8 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
+#[cfg(feature = "alloc")]
+use super::sides::SAME_DEG;
 use super::sides::{ONE_DEG, Rival, Side, SideEvidence, SideFigures, SideStep};
 use crate::math::{Vector3, add, atan2, cross, degrees, dot, norm};
 use crate::pose::{Pose, geodesic_deg};
@@ -117,7 +119,7 @@ impl SideSample {
     #[cfg(feature = "alloc")]
     pub(super) fn chosen_but_left(&self, side: Side, now: &FramePose) -> Option<FramePose> {
         let deg = |a: &FramePose, b: &FramePose| geodesic_deg(&a.pose.rotation, &b.pose.rotation);
-        let [chosen, rejected] = self.two_sides(side, deg)?;
+        let [chosen, rejected] = self.two_sides(side, ONE_DEG, deg)?;
         (deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
     }
 
@@ -125,15 +127,16 @@ impl SideSample {
     #[cfg(feature = "alloc")]
     pub(super) fn leads_to_rejected(&self, side: Side, near: &FramePose) -> Option<bool> {
         let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose);
-        let [chosen, rejected] = self.two_sides(side, deg)?;
+        let [chosen, rejected] = self.two_sides(side, SAME_DEG, deg)?;
         Some(deg(near, &rejected) < CROSSED * deg(near, &chosen))
     }
 
-    /// What was chosen and what was rejected, where these are two.
+    /// What was chosen and what was rejected, where these are two by so many degrees.
     #[cfg(feature = "alloc")]
     fn two_sides(
         &self,
         side: Side,
+        two_deg: f64,
         deg: impl Fn(&FramePose, &FramePose) -> f64,
     ) -> Option<[FramePose; 2]> {
         let other = self.free().filter(|_| self.rival == Rival::Mirrored)?;
@@ -141,7 +144,7 @@ impl SideSample {
             Side::Own => [self.own, other],
             Side::Mirrored => [other, self.own],
         };
-        (deg(&self.own, &other) >= ONE_DEG).then_some(both)
+        (deg(&self.own, &other) >= two_deg).then_some(both)
     }
 
     /// The other pose; none where a person has chosen.

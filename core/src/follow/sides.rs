@@ -74,7 +74,7 @@ pub struct SideStep {
 /// Both sides are one where they are nearer to each other than this, degrees: a trail may go over there.
 pub(super) const ONE_DEG: f64 = 4.0;
 /// Below this they are the same pose, of which a frame cannot tell two.
-const SAME_DEG: f64 = 2.0;
+pub(super) const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
 /// What it costs to stay on a trail that jumps by [`ONE_DEG`] or less where another pose does not; by more, as much more, up to [`MOST`].
@@ -87,6 +87,15 @@ const HINT: f64 = 0.25;
 pub(super) const MOST: f64 = 2.0;
 
 impl SideStep {
+    /// What speaks for the trail, as far as it speaks for what was chosen.
+    #[cfg(feature = "alloc")]
+    pub(super) fn told_by(&self, for_own: f64) -> f64 {
+        match self.side {
+            Side::Own => for_own,
+            Side::Mirrored => -for_own,
+        }
+    }
+
     /// Leaves the frame to what it says alone: what frames beside it say counts as far as it says the same.
     #[cfg(feature = "alloc")]
     pub(super) fn speaks_for_itself(&mut self, evidence: &SideEvidence) {

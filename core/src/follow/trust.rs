@@ -225,6 +225,8 @@ pub struct Trust {
     pub distrust: Option<Distrust>,
     /// How bad it is: above 1 it is doubtful, and the worst have the most.
     pub badness: f64,
+    /// How bad what the frame says of its pose by itself is, whatever the others say.
+    pub by_itself: f64,
     /// Whether there are poses in the frames on both sides, which it was compared with.
     pub is_between: bool,
 }
@@ -316,7 +318,12 @@ fn judge(
     let Some((one, found)) = film.get(at).and_then(|one| Some((one, one.found?))) else {
         return Trust::default();
     };
-    let mut worst = Trust::default();
+    let mut alone = Trust::default();
+    alone.weigh_fit(&found, limits, usual);
+    let mut worst = Trust {
+        by_itself: alone.badness,
+        ..Trust::default()
+    };
     if one.fixed {
         let px = found.misfit_px;
         let apart = Distrust::Apart(px, usual.misfit_px);
