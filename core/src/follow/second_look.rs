@@ -19,6 +19,8 @@ use crate::refine::{ImageTarget, RefineMemory};
 
 /// A frame stands out that is so bad, where 1 would be doubtful.
 const STANDS_OUT: f64 = 0.7;
+/// Most misfit here, in usual ones of the film: to look once more costs little, and of frames that leave twice as much most are right.
+const MISFIT: f64 = 1.8;
 /// Frames on both sides lead to it that are at most so far away.
 const REACH: usize = 6;
 /// What it costs to be so far from where they lead, in usual misfits: 20 degrees or 30 mm for one.
@@ -81,7 +83,10 @@ fn judged(cells: &[Cell], middle: &Vector3) -> Vec<Trust> {
     let evidence: Vec<FrameEvidence> = evidence.collect();
     let mut trusts = vec![Trust::default(); cells.len()];
     let mut sorted = vec![0.0; cells.len()];
-    let limits = TrustLimits::USUAL;
+    let limits = TrustLimits {
+        misfit: MISFIT,
+        ..TrustLimits::USUAL
+    };
     judge_film(&evidence, &limits, middle, &mut sorted, &mut trusts);
     trusts
 }
