@@ -73,7 +73,7 @@ pub struct TrustLimits {
 impl TrustLimits {
     /// The usual ones.
     pub const USUAL: Self = Self {
-        misfit: 2.5,
+        misfit: 2.3,
         least_misfit_px: 0.2,
         most_misfit_px: 0.9,
         fixed_misfit_px: 2.0,
