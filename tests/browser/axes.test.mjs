@@ -136,7 +136,7 @@ pageTest('what was done to a model', async (page, t) => {
     await choose(page, await demoFile(framePath(1)), await demoFile('calibration.txt'), file('femur.stl', holed));
     await panel.waitForFrames(page, 1);
     await panel.waitForWords(page, /femur\.stl as the model of the femur \(the surface has holes or cracks/);
-    await card.getByText(/^femur\.stl: the surface has holes or cracks \(\d+ sides of triangles have no neighbour\)/).waitFor();
+    await card.getByText(/^femur\.stl: The surface has holes or cracks \(\d+ sides of triangles have no neighbour\)/).waitFor();
     await screenshot(page, 'remarks');
     await card.getByRole('button', { name: 'Dismiss' }).click();
     await card.waitFor({ state: 'detached' });
@@ -149,6 +149,24 @@ pageTest('what was done to a model', async (page, t) => {
     const metres = stlOf(trianglesOf(buffer).map((corners) => corners.map((corner) => corner.map((value) => value / 1000))));
     await choose(page, file('femur.stl', metres));
     await card.getByText(/is the file in metres\? Write it again in millimetres/).waitFor();
+  });
+
+  await step(page, t, 'and written again in millimetres where a person says so, as one step', async () => {
+    await screenshot(page, 'unit asked');
+    await card.getByRole('button', { name: 'It is in metres' }).click();
+    await page.getByRole('button', { name: 'Femur: femur_mm.stl' }).waitFor();
+    await card.getByText(/is the file in metres/).waitFor({ state: 'detached' });
+    await page.keyboard.press('Control+z');
+    await card.getByRole('button', { name: 'It is in metres' }).waitFor();
+  });
+
+  await step(page, t, 'of which inches and centimetres look alike', async () => {
+    const inches = stlOf(trianglesOf(buffer).map((corners) => corners.map((corner) => corner.map((value) => value / 25.4))));
+    await choose(page, file('femur.stl', inches));
+    await card.getByRole('button', { name: 'It is in centimetres' }).waitFor();
+    await card.getByRole('button', { name: 'It is in inches' }).click();
+    await page.getByRole('button', { name: 'Femur: femur_mm.stl' }).waitFor();
+    assert.equal(await card.getByRole('button', { name: /^It is in/ }).count(), 0);
   });
 });
 

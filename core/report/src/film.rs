@@ -201,10 +201,11 @@ impl JointFilm {
         origins_told(self.rows.iter().filter_map(numbers))
     }
 
-    /// How many frames are doubtful.
+    /// How many frames with a joint are doubtful: one without has nothing to doubt, and its reason is why it has none.
     #[must_use]
     pub fn doubtful(&self) -> usize {
-        self.rows.iter().filter(|row| row.doubt.is_some()).count()
+        let doubtful = |row: &&JointRow| row.joint.is_some() && row.doubt.is_some();
+        self.rows.iter().filter(doubtful).count()
     }
 
     /// How many frames have a pose of both components.

@@ -16,6 +16,17 @@ pub enum SuspectedUnit {
     CentimetresOrInches,
 }
 
+impl SuspectedUnit {
+    /// Millimetres in one of it: of what the size leaves open there are two.
+    #[must_use]
+    pub const fn mm(self) -> &'static [f64] {
+        match self {
+            Self::Metres => &[1000.0],
+            Self::CentimetresOrInches => &[10.0, 25.4],
+        }
+    }
+}
+
 /// Radii of the sphere round a component of a knee, mm, wide on both sides: trays of children and revision stems.
 const SMALLEST_MM: f64 = 15.0;
 const LARGEST_MM: f64 = 250.0;
@@ -30,13 +41,10 @@ pub fn suspected_unit(bounds: &Bounds) -> Option<SuspectedUnit> {
     if is_knee(1.0) {
         return None;
     }
-    let units = [
-        (1000.0, SuspectedUnit::Metres),
-        (10.0, SuspectedUnit::CentimetresOrInches),
-        (25.4, SuspectedUnit::CentimetresOrInches),
-    ];
-    let fitting = units.into_iter().find(|&(factor, _)| is_knee(factor));
-    fitting.map(|(_, unit)| unit)
+    let units = [SuspectedUnit::Metres, SuspectedUnit::CentimetresOrInches];
+    units
+        .into_iter()
+        .find(|unit| unit.mm().iter().any(|&factor| is_knee(factor)))
 }
 
 impl OwnedModel {
@@ -118,6 +126,20 @@ mod tests {
             assert!(
                 remarks.len() == 1 && remarks[0].contains(unit),
                 "{size}: {remarks:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_read_in_the_suspected_unit_has_a_knees_size() {
+        for size in [0.06, 6.0, 2.4] {
+            let bounds = box_of(size).as_model().bounds();
+            let unit = suspected_unit(&bounds).expect("no knee is so small");
+            let radii = unit.mm().iter().map(|mm| mm * bounds.radius);
+            assert!(
+                radii
+                    .into_iter()
+                    .any(|radius| (15.0..250.0).contains(&radius))
             );
         }
     }

@@ -5,7 +5,7 @@ use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
-use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::{OwnedModel, SuspectedUnit, suspected_unit};
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::prelude::*;
@@ -58,6 +58,13 @@ impl Model {
     #[wasm_bindgen(getter)]
     pub fn remarks(&self) -> Vec<String> {
         self.owned.remarks()
+    }
+
+    /// Millimetres in a unit of the file, where its size is a knee component's in other units alone: one number for each of them.
+    #[wasm_bindgen(getter, js_name = suspectedUnits)]
+    pub fn suspected_units(&self) -> Vec<f64> {
+        let unit = suspected_unit(&self.owned.as_model().bounds());
+        unit.map_or(&[][..], SuspectedUnit::mm).to_vec()
     }
 
     /// Number of triangles.

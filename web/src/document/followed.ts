@@ -1,3 +1,4 @@
+import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
@@ -102,7 +103,7 @@ function withFollowed(doc: Doc, one: Followed): Doc {
 
 function resultOf({ pose, deviations, residual, doubtful, badness, rival, led, because, from }: Followed): Result {
   const origin = `${FOLLOWED} ${from}`;
-  const sentence = `${because.charAt(0).toUpperCase()}${because.slice(1)}.`;
+  const sentence = asSentence(because);
   if (!pose) return { kind: 'failed', origin, sentence };
   const own: Verdict = { word: doubtful ? 'doubtful' : 'good', because };
   const rivals = rival ? [{ ...bare(rival.pose), residual: rival.residual }] : [];

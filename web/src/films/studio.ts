@@ -265,6 +265,11 @@ export class Studio {
     return held.remarks;
   }
 
+  /** Millimetres in a unit of a model's file, where its size is a knee component's in other units alone. */
+  suspectedUnitsOf(sha256: string): readonly number[] {
+    return Array.from(this.#models.get(sha256)?.model.suspectedUnits ?? []);
+  }
+
   /**
    * Finds the silhouette of a model at a pose: its border in frame coordinates, columns and rows by turns. What has holes
    * or more than one part is painted on the canvas too. Null without the model.

@@ -14,6 +14,7 @@ import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/
 import { aborted, frameAt, readBeside, subjectOf, unlessAborted } from './beside_poses';
 import type { FilmLater } from './film_later';
 import type { FirstPoses } from './first_poses';
+import { type Looked, Progress } from './follow_progress';
 import { asJob, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
@@ -27,34 +28,6 @@ interface Part {
   readonly span: Span;
   /** What was there in frames that were looked at. */
   readonly before: Map<string, readonly [Place, Result | null]>;
-}
-
-/** How far following is: frame by frame first, and then one cannot say how many looks there will be at those that may lie otherwise. */
-class Progress {
-  readonly #report: (done: number, total: number, title?: string) => void;
-  readonly #total: number;
-  #followed = 0;
-  #others = 0;
-
-  constructor(report: (done: number, total: number, title?: string) => void, total: number) {
-    this.#report = report;
-    this.#total = total;
-  }
-
-  readonly followed = (): void => {
-    this.#followed++;
-    this.#tell();
-  };
-
-  readonly another = (): void => {
-    this.#others++;
-    this.#tell();
-  };
-
-  #tell(): void {
-    if (this.#followed < this.#total) this.#report(this.#followed, this.#total);
-    else this.#report(this.#others, 0, texts.follow.deciding);
-  }
 }
 
 /**
@@ -143,7 +116,8 @@ export class Follower {
     const before = parts.flatMap((part) => [...part.before.values()]);
     store.amend((doc) => withoutSoFar(doc, before));
     if (found.length > 0) store.perform(takeFollowed(found));
-    const done = texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted);
+    const posed = found.filter(({ pose }) => pose).length;
+    const done = texts.follow.done(posed, found.filter(isDoubtful).length, found.length - posed, abort.signal.aborted);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '));
   }
 
@@ -238,7 +212,7 @@ export class Follower {
   }
 
   /** Shows the frames that the worker asks for; stops between two of them. What is found fills its cell at once. */
-  async #look(part: Part, first: number | null, signal: AbortSignal, looked: () => void): Promise<void> {
+  async #look(part: Part, first: number | null, signal: AbortSignal, looked: Looked): Promise<void> {
     for (let next = first; next !== null && !signal.aborted; ) {
       const at = next;
       const { frameId, ...input } = await frameAt(this.#services, at);
@@ -246,7 +220,7 @@ export class Follower {
       if (!seen) return;
       next = seen.next;
       if (seen.pose) this.#fill(part, at, frameId, seen.pose);
-      looked();
+      looked(part.component, at);
     }
   }
 

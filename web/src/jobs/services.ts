@@ -23,18 +23,21 @@ export interface Services {
 
 let lastJob = 0;
 
-/** Shows a job in the page while `task` runs; `task` reports how far it is, and by another title what it is about now. */
+/** How far a job is; by another title what it is about now. */
+export type Report = (done: number, total: number, now?: Partial<Pick<Job, 'title' | 'unit'>>) => void;
+
+/** Shows a job in the page while `task` runs. */
 export async function asJob<T>(
   store: Store,
   job: Pick<Job, 'title' | 'unit' | 'total' | 'cancel' | 'place' | 'at'>,
-  task: (report: (done: number, total: number, title?: string) => void, id: number) => Promise<T>,
+  task: (report: Report, id: number) => Promise<T>,
 ): Promise<T> {
   const id = ++lastJob;
   const over = work.begin();
   const startedAt = performance.now();
   let isOver = false;
   // What comes late, of a call that was called off, makes no job anew.
-  const report = (done: number, total: number, title = job.title) => isOver || store.setJob({ ...job, title, id, startedAt, done, total });
+  const report: Report = (done, total, now) => void (isOver || store.setJob({ ...job, ...now, id, startedAt, done, total }));
   report(0, job.total);
   try {
     return await task(report, id);

@@ -2,6 +2,8 @@ import { isAssumed } from '../document/axes';
 import { swapModels } from '../document/commands';
 import type { State } from '../document/store';
 import { cellOf, chosenCandidate, type Component } from '../document/types';
+import { takeInMillimetres } from '../exchange/model_unit';
+import { sentenceOf } from '../jobs/services';
 import type { ComponentName } from '../terms/component';
 import { misplacedModels } from '../results/misplaced';
 import { texts } from '../texts/texts';
@@ -53,6 +55,7 @@ function RemarksCard({ state, component }: { state: State; component: ComponentN
   return (
     <section class="card note" aria-label={words.card}>
       <p class="card-note">{words.remarks(model.name, remarks)}</p>
+      <UnitButtons component={component} sha256={model.sha256} />
       <button
         type="button"
         class="button square small"
@@ -63,6 +66,23 @@ function RemarksCard({ state, component }: { state: State; component: ComponentN
         <Icon name="close" />
       </button>
     </section>
+  );
+}
+
+/** Where a model's size speaks for another unit than millimetres, a person says which: two of them look alike. */
+export function UnitButtons({ component, sha256 }: { component: ComponentName; sha256: string }) {
+  const { services } = useApp();
+  const units = services.studio.suspectedUnitsOf(sha256);
+  if (units.length === 0) return null;
+  const take = (mm: number) => takeInMillimetres(services, component, mm).catch((error) => services.store.say('error', sentenceOf(error)));
+  return (
+    <div class="card-buttons">
+      {units.map((mm) => (
+        <button key={mm} type="button" class="button small primary" title={texts.models.isInTitle(mm)} onClick={() => void take(mm)}>
+          {texts.models.isIn(mm)}
+        </button>
+      ))}
+    </div>
   );
 }
 

@@ -7,6 +7,8 @@ import { useApp } from '../commands/app';
 import { AxesSection } from './axes_section';
 import { NumberField } from '../controls/number_field';
 import { Segments } from '../controls/segments';
+import { UnitButtons } from '../pose/component_notes';
+import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 
 /** A component's model and library. */
@@ -35,6 +37,7 @@ export function ComponentSheet({ state, component }: { state: State; component: 
         )}
       </div>
       <Remarks remarks={model ? services.studio.remarksOn(model.sha256) : []} />
+      {model && <UnitButtons component={component} sha256={model.sha256} />}
       <AxesSection state={state} component={component} />
       <LibraryForm key={JSON.stringify(librarySpec)} component={component} spec={librarySpec} />
     </div>
@@ -47,7 +50,7 @@ function Remarks({ remarks }: { remarks: readonly string[] }) {
   return (
     <ul class="model-remarks" aria-label={texts.models.card}>
       {remarks.map((remark) => (
-        <li key={remark}>{`${remark.charAt(0).toUpperCase()}${remark.slice(1)}.`}</li>
+        <li key={remark}>{asSentence(remark)}</li>
       ))}
     </ul>
   );

@@ -1,4 +1,4 @@
-import { useEffect } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { currentCell, currentFrame, type Job, type State } from '../document/store';
 import { chosenCandidate } from '../document/types';
 import type { Motion } from '../interaction/adjust';
@@ -84,7 +84,19 @@ function OfferButton({ state }: { state: State }) {
   );
 }
 
+/** A clock that stands still while a job has nothing to report looks like a page that hangs. */
+function useTicking(): void {
+  const [, setTick] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => setTick((tick) => tick + 1), TICK);
+    return () => clearInterval(timer);
+  }, []);
+}
+
+const TICK = 1000;
+
 function JobBar({ job }: { job: Job }) {
+  useTicking();
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
   return (
     <div class="job">

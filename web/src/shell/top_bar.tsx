@@ -184,6 +184,13 @@ function ComponentChip({ state, component }: { state: State; component: Componen
 /** Names are cut before so many last letters: what tells files of a study apart mostly stands there. */
 const TAIL = 9;
 
+/** A head of one or two letters would take more room than it has letters for, and look like a word of its own. */
+const LEAST_HEAD = 3;
+
+function cutAt(text: string): number {
+  return text.length < TAIL + LEAST_HEAD ? 0 : text.length - TAIL;
+}
+
 interface ChipProps {
   readonly state: State;
   readonly popover: Popover;
@@ -210,8 +217,8 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
         <span class="chip-colon">:</span>
       </span>{' '}
       <span class="chip-text">
-        <span class="chip-head">{text.slice(0, -TAIL)}</span>
-        <span class="chip-tail">{text.slice(-TAIL)}</span>
+        <span class="chip-head">{text.slice(0, cutAt(text))}</span>
+        <span class="chip-tail">{text.slice(cutAt(text))}</span>
       </span>
     </button>
   );

@@ -1,4 +1,5 @@
 import type { ComponentName } from '../terms/component';
+import { asSentence } from './sentences';
 
 /** English of anatomical axes: which way a component lies in the coordinates of its file. */
 export const axes = {
@@ -43,11 +44,19 @@ export const axes = {
   perhaps: (name: string) => `${name}?`,
 };
 
+function unitOf(mm: number): string {
+  return mm === 1000 ? 'metres' : mm === 10 ? 'centimetres' : mm === 25.4 ? 'inches' : `units of ${mm} mm`;
+}
+
 /** English of what was done to a model when it was opened, and of study files. */
 export const models = {
   card: 'About the model',
-  remarks: (name: string, remarks: readonly string[]) => `${name}: ${remarks.join('. ')}.`,
+  remarks: (name: string, remarks: readonly string[]) => `${name}: ${remarks.map(asSentence).join(' ')}`,
   dismiss: 'Dismiss',
+  /** By the millimetres in one of it. */
+  isIn: (mm: number) => `It is in ${unitOf(mm)}`,
+  isInTitle: (mm: number) => `Every length of the model times ${mm}, written as a file in millimetres, which takes its place; Ctrl+Z takes it back`,
+  taken: (from: string, to: string, mm: number) => `${from} was read in ${unitOf(mm)} and written again as ${to}, in millimetres: poses are those of this file.`,
   /** Of a model that lies where the other one belongs. */
   shape: { femur: 'a tibial tray', tibia: 'a femoral component' } satisfies Record<ComponentName, string>,
   misplaced: (name: string, shape: string, component: string) => `${name} has the shape of ${shape} and is the model of the ${component}.`,

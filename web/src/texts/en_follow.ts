@@ -8,6 +8,7 @@ export const follow = {
   reading: 'Reading the film beside the frames that are set',
   estimating: 'Estimating the constants of the film',
   deciding: 'Looking at other poses of the film',
+  decidingIn: (component: string, frame: number) => `Looking at other poses of the ${component} in frame ${frame}`,
   looking: (component: string, frame: number, other: string | null) => `Looking for the ${component} ${other ? `beside the ${other} ` : ''}in frame ${frame}`,
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
@@ -25,6 +26,8 @@ export const follow = {
   noneSet: 'Nothing to follow from: click the femur or the tibia in one frame first.',
   allSet: 'Every frame is followed already from those that are set.',
   gone: (frame: number) => `Frame ${frame} is gone: following stopped there.`,
-  done: (posed: number, doubtful: number, stopped: boolean) =>
-    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful > 0 ? `, ${doubtful} of them doubtful: N goes from one to the next` : ''}.`,
+  done: (posed: number, doubtful: number, missing: number, stopped: boolean) =>
+    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful > 0 ? `, ${doubtful} of them doubtful: N goes from one to the next` : ''}.${
+      missing > 0 ? ` ${missing} ${missing === 1 ? 'cell is' : 'cells are'} without one (✕): a click there, or an outline, helps.` : ''
+    }`,
 };

@@ -1,3 +1,5 @@
+import { ended } from './sentences';
+
 /** The rail on the left and the panel on the right: the pose, how far to trust it, how the frame is shown. */
 export const panel = {
   region: 'Pose',
@@ -33,7 +35,7 @@ export const panel = {
     needs: (what: string) => `For a pose: ${what}.`,
     verdict: 'Verdict',
     verdicts: { good: 'Good', doubtful: 'Doubtful', accepted: 'Accepted', none: 'No pose' },
-    accepted: (because: string) => `It was doubtful: ${because}. You found it right.`,
+    accepted: (because: string) => `It was doubtful: ${ended(because)} You found it right.`,
     reason: (because: string) => `: ${because.charAt(0).toLowerCase()}${because.slice(1)}`,
     finding: 'Finding it ...',
     remedies: 'What to do',

@@ -1,3 +1,5 @@
+import { ended } from './sentences';
+
 /** English of the tools that trace and shape outlines. */
 export const tracing = {
   hints: {
@@ -95,7 +97,7 @@ export const tracing = {
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',
     oneClickJob: (component: string, frame: number) => `${component} of frame ${frame} by one click`,
-    oneClickFound: (component: string, verdict: string, because: string) => `${component}: ${verdict}, ${because}.`,
+    oneClickFound: (component: string, verdict: string, because: string) => `${component}: ${verdict}, ${ended(because)}`,
     percent: '%',
     flat: 'Nothing stands out from its surroundings here: point inside the implant, or move the level by hand.',
     empty: (level: number) => `Nothing here is beyond the level of ${level}: point inside the implant, or move the level.`,

@@ -51,6 +51,24 @@ fn a_film_without_steps_shows_its_frames() {
     assert!(!report.contains("n: monotonic phases"));
 }
 
+/// Of a film in which most frames have no tray, those that have one are not called doubtful because of the others.
+#[test]
+fn frames_without_a_joint_count_as_missing_and_not_as_doubtful() {
+    let mut sparse = film(12.0);
+    for row in sparse.rows.iter_mut().filter(|row| row.number > 20) {
+        row.joint = None;
+        row.doubt = Some("tibia: there are no edges of it where it is expected".to_owned());
+    }
+    assert_eq!((sparse.posed(), sparse.doubtful()), (9, 1));
+    let report = html(&sparse, &Facts::default());
+    assert!(report.contains("30 frames: 9 with a pose of both components, 1 doubtful."));
+    assert!(!report.contains("All 9 frames are doubtful"));
+    assert!(
+        report.contains("there are no edges of it"),
+        "why they have none"
+    );
+}
+
 /// A centre known to 200 mm: its bars end where the panel does.
 #[test]
 fn bars_of_the_centre_stay_in_their_panel() {

@@ -14,6 +14,7 @@ import { cameraOf } from '../../results/keys';
 import type { Motion } from '../../results/motion';
 import { formatNumber } from '../../texts/numbers';
 import { later } from '../../texts/later';
+import { asSentence } from '../../texts/sentences';
 import { texts } from '../../texts/texts';
 import { drawRival, type RivalScene } from './rival_picture';
 import { otherThan } from '../../terms/component';
@@ -30,7 +31,7 @@ export function CheckCard({ state }: { state: State }) {
   return (
     <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
       <p class="guide-title">{at < 0 ? words.taken : words.title(at + 1, doubts.length)}</p>
-      <p class="guide-text check-why">{sentence(verdictOf(result)?.because ?? '')}</p>
+      <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
       {result.candidates.length > 1 && <Rivals state={state} result={result} />}
       {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
       {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
@@ -156,8 +157,4 @@ function motionWith({ history: { present: doc }, ui: { component, frameIndex } }
   if (doc.side === 'unknown' || !there || !own || !its) return null;
   const [mine, theirs] = [{ pose, axes: own }, { pose: there.pose, axes: its }];
   return component === 'femur' ? studio.motionOf(mine, theirs, doc.side) : studio.motionOf(theirs, mine, doc.side);
-}
-
-function sentence(because: string): string {
-  return because === '' ? '' : `${because.charAt(0).toUpperCase()}${because.slice(1)}${/[.?!]$/.test(because) ? '' : '.'}`;
 }
