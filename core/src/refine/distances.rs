@@ -114,7 +114,7 @@ impl Distances {
             if square >= (reach * reach) as u32 {
                 return None;
             }
-            let bin = *BIN_OF.get((square * per_square >> 20) as usize)?;
+            let bin = *BIN_OF.get(((square * per_square) >> 20) as usize)?;
             other
                 .residual_px()
                 .filter(|_| alike(sample.slope, other.slope))?;
