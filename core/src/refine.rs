@@ -16,6 +16,7 @@ mod buffers;
 mod correct;
 mod correlation;
 mod depth;
+mod distances;
 mod drawing;
 mod drawn;
 pub(crate) mod edge;

@@ -1,69 +1,11 @@
 //! How residuals along an outline err alike, over the distance between samples.
 
 use super::border::BorderPixel;
+use super::distances::{BINS, Distances};
 use super::loss::Loss;
 
-/// Width of a bin of distance, pixels, and number of bins.
-const BIN: f32 = 2.0;
-const BINS: usize = 24;
 /// Samples that are summed in 32 bits before their sum is added in 64.
 pub(super) const BLOCK: usize = 64;
-
-/// Samples this far apart, pixels, are not compared.
-const REACH: i32 = BIN as i32 * BINS as i32;
-
-/// The bin of a distance, from 1, by its square in pixels.
-const BIN_OF: [u8; (REACH * REACH) as usize] = {
-    let mut bins = [0; (REACH * REACH) as usize];
-    let (mut square, mut bin) = (0, 1);
-    while square < bins.len() {
-        let end = BIN as usize * bin as usize;
-        if square >= end * end {
-            bin += 1;
-        }
-        bins[square] = bin;
-        square += 1;
-    }
-    bins
-};
-
-/// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
-/// places in the list and the bin of their distance.
-pub(super) fn after(
-    border: &[BorderPixel],
-    index: usize,
-    reach: i32,
-) -> impl Iterator<Item = (usize, &BorderPixel, usize)> {
-    let sample = border.get(index).copied().unwrap_or_default();
-    let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
-    // They are listed row by row.
-    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
-    let rest = border.get(index + 1..).unwrap_or_default();
-    let rest = (index + 1..).zip(rest.iter().take_while(close));
-    rest.filter_map(move |(number, other)| {
-        let right = offset(other.column, sample.column);
-        if right.abs() >= reach {
-            return None;
-        }
-        let down = offset(other.row, sample.row);
-        let bin = *BIN_OF.get((right * right + down * down) as usize)?;
-        other
-            .residual_px()
-            .filter(|_| alike(sample.slope, other.slope))?;
-        Some((number, other, usize::from(bin)))
-    })
-}
-
-/// Whether the cosine between two normals is at least one half: the two sides of a thin plate err apart. In whole numbers, because
-/// there are many pairs; slopes are at most 160.
-fn alike(a: [i16; 2], b: [i16; 2]) -> bool {
-    let dot = |a: [i16; 2], b: [i16; 2]| {
-        i32::from(a[0]) * i32::from(b[0]) + i32::from(a[1]) * i32::from(b[1])
-    };
-    let along = dot(a, b);
-    let squares = dot(a, a) as u32 * dot(b, b) as u32;
-    along >= 0 && along as u32 * along as u32 >= squares.div_ceil(4)
-}
 
 /// Samples within reach, mostly: an outline has some four in a row.
 const KEPT: usize = 256;
@@ -114,9 +56,10 @@ fn add_each(sums: &mut [f64], more: &[f32]) {
 
 /// Covariance of `psi` over distance.
 pub(super) struct Correlation {
-    /// At distance zero, then in bins of [`BIN`] pixels; zero from where it first fails to be
-    /// positive.
+    /// At distance zero, then in bins; zero from where it first fails to be positive.
     pub(super) bins: [f32; BINS + 1],
+    /// Of samples that err alike.
+    distances: Distances,
 }
 
 impl Correlation {
@@ -131,29 +74,34 @@ impl Correlation {
     /// of the independent stretches. The covariance of what remains is too small by the same amount at every
     /// distance, and this amount is added again.
     pub(super) fn of(border: &[BorderPixel], loss: Loss, fitted: f32) -> Self {
-        let (raw, length) = Self::raw(border, loss);
+        let distances = Distances::of(border);
+        let (raw, length) = Self::raw(border, loss, &distances);
         let mut taken = 0.0;
-        let mut correlation = Self::cut(&raw, taken);
+        let mut correlation = Self::cut(&raw, taken, &distances);
         for _ in 0..Self::ROUNDS {
             let fraction =
                 (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
             taken = raw[0] * fraction / (1.0 - fraction);
-            correlation = Self::cut(&raw, taken);
+            correlation = Self::cut(&raw, taken, &distances);
         }
         correlation
     }
 
     /// `taken` more at every distance, up to where it first fails to be positive.
-    fn cut(raw: &[f32; BINS + 1], taken: f32) -> Self {
+    fn cut(raw: &[f32; BINS + 1], taken: f32, distances: &Distances) -> Self {
         let mut bins = raw.map(|value| value + taken);
-        let end = bins.iter().position(|&value| value <= 0.0);
-        bins[end.unwrap_or(BINS + 1)..].fill(0.0);
-        Self { bins }
+        let compared = bins.iter().take(distances.bins() + 1);
+        let positive = compared.take_while(|&&value| value > 0.0).count();
+        bins[positive..].fill(0.0);
+        Self {
+            bins,
+            distances: distances.of_first(positive.saturating_sub(1)),
+        }
     }
 
-    /// The mean product of `psi` in every bin, and the length of the outline.
+    /// The mean product of `psi` in every bin, and the length of the outline. A bin without pairs tells nothing of its own.
     #[inline(never)]
-    fn raw(border: &[BorderPixel], loss: Loss) -> ([f32; BINS + 1], f32) {
+    fn raw(border: &[BorderPixel], loss: Loss, distances: &Distances) -> ([f32; BINS + 1], f32) {
         let (mut sums, mut weights) = ([0.0f64; BINS + 1], [0.0f64; BINS + 1]);
         let mut last = [0.0; KEPT];
         let mut pulls = Pulls::new(border, loss, &mut last);
@@ -167,7 +115,7 @@ impl Correlation {
                 let (l, own) = (sample.weight, pulls.of(index, index));
                 some[0] += l * own * own;
                 lengths[0] += l;
-                for (number, other, bin) in after(border, index, REACH) {
+                for (number, other, bin) in distances.after(border, index) {
                     let weight = l * other.weight;
                     if let (Some(sum), Some(length)) = (some.get_mut(bin), lengths.get_mut(bin)) {
                         *sum += weight * own * pulls.of(number, index);
@@ -178,25 +126,29 @@ impl Correlation {
             add_each(&mut sums, &some);
             add_each(&mut weights, &lengths);
         }
+        let mut before = 0.0;
         let mean = |bin: usize| {
             if weights[bin] > 0.0 {
-                (sums[bin] / weights[bin]) as f32
-            } else {
-                0.0
+                before = (sums[bin] / weights[bin]) as f32;
             }
+            before
         };
         (core::array::from_fn(mean), weights[0] as f32)
     }
 
-    /// In a bin.
-    pub(super) fn at(&self, bin: usize) -> f32 {
-        self.bins.get(bin).copied().unwrap_or(0.0)
-    }
-
-    /// Distance from which on samples err apart, pixels.
-    pub(super) fn reach(&self) -> i32 {
-        let first = self.bins.iter().position(|&value| value == 0.0);
-        BIN as i32 * first.map_or(BINS, |bin| bin.saturating_sub(1)) as i32
+    /// The samples listed after one that err like it, with their places in the list and the covariance with it, as many times as
+    /// one pair stands for.
+    pub(super) fn after<'b>(
+        &self,
+        border: &'b [BorderPixel],
+        index: usize,
+    ) -> impl Iterator<Item = (usize, &'b BorderPixel, f32)> {
+        let times = self.distances.one_in() as f32;
+        let near = self.distances.after(border, index);
+        near.map(move |(number, other, bin)| {
+            let covariance = self.bins.get(bin).copied().unwrap_or(0.0);
+            (number, other, times * covariance)
+        })
     }
 
     /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
@@ -206,7 +158,7 @@ impl Correlation {
         if *own <= 0.0 {
             return 1.0;
         }
-        (2.0 * BIN * rest.iter().sum::<f32>() / own).max(1.0)
+        (2.0 * self.distances.width_px() * rest.iter().sum::<f32>() / own).max(1.0)
     }
 }
 
@@ -230,9 +182,31 @@ mod tests {
         };
         let border: Vec<BorderPixel> = (0..300).map(sample).collect();
         let loss = Loss::Tukey(2.5);
-        let (raw, _) = Correlation::raw(&border, loss);
-        let taken = Correlation::of(&border, loss, 6.0).at(0) / raw[0] - 1.0;
+        let (raw, _) = Correlation::raw(&border, loss, &Distances::of(&border));
+        let taken = Correlation::of(&border, loss, 6.0).bins[0] / raw[0] - 1.0;
         assert!((taken - 1.0 / 3.0).abs() < 1e-6, "{taken}");
+    }
+
+    /// The same picture in twice as many pixels.
+    #[test]
+    fn stretches_grow_with_the_picture() {
+        let stretch = |size: u16| {
+            let border: Vec<BorderPixel> = (0..300 * size)
+                .map(|k| BorderPixel {
+                    column: 8 + k,
+                    row: 9,
+                    slope: [0, 1],
+                    weight: 1.0,
+                    residual: Residual::Px(libm::sinf(f32::from(k) / f32::from(9 * size))).into(),
+                    ..BorderPixel::EMPTY
+                })
+                .collect();
+            Correlation::of(&border, Loss::Tukey(2.5), 0.0).stretch_px()
+        };
+        let (one, two, five) = (stretch(1), stretch(2), stretch(5));
+        assert!(one > 10.0, "{one}");
+        assert!((two / one - 2.0).abs() < 0.1, "{one} {two}");
+        assert!((five / one - 5.0).abs() < 0.25, "{one} {five}");
     }
 
     proptest! {

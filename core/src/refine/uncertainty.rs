@@ -10,7 +10,7 @@
 //! holds the pose less than the rest, and often it is the one stretch that holds a number.
 
 use super::border::BorderPixel;
-use super::correlation::{BLOCK, Correlation, after};
+use super::correlation::{BLOCK, Correlation};
 use super::edge_bias::EdgeBias;
 use super::error::RefineError;
 use super::fit::{Fit, FitSums};
@@ -213,7 +213,6 @@ impl Sums {
     ) {
         let border = jacobians.border;
         let covariance = Correlation::of(border, loss, fitted);
-        let reach = covariance.reach();
         let mut length = 0.0;
         for (few, samples) in border.chunks(BLOCK).enumerate() {
             let mut sums = Block::default();
@@ -225,8 +224,8 @@ impl Sums {
                 let own = jacobians.of(index);
                 // Half of the sample's own part: every pair is met once and counts both ways.
                 let mut sum = own.map(|value| value * sample.weight * covariance.bins[0] / 2.0);
-                for (number, other, bin) in after(border, index, reach) {
-                    let weight = other.weight * covariance.at(bin);
+                for (number, other, alike) in covariance.after(border, index) {
+                    let weight = other.weight * alike;
                     for (sum, value) in sum.iter_mut().zip(&jacobians.of(number)) {
                         *sum += weight * value;
                     }
