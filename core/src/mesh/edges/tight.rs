@@ -6,7 +6,8 @@
 //! - its box: ten numbers of which each is the upper half of one of 32 bits (`boxes.rs`);
 //! - the bytes of all that follows these two, and the number of its vertices (u8 each);
 //! - its edges: from, to and the third vertices of the triangles that run it forth and back, each by its place in the list below, in
-//!   as few bits as hold these places, from the lowest bit of a byte on, then zeros to a whole byte;
+//!   as few bits as hold these places, four at least, from the lowest bit of a byte on: two edges are whole bytes, and where there is
+//!   no second one zeros stand for it;
 //! - its vertices, rising: by how much each is more than the one before it, the first more than -1: a byte, or a zero and then two.
 
 use super::boxes::{Halves, IN_BOX};
@@ -16,9 +17,11 @@ use super::packed::PackedEdge;
 pub(super) const MOST_VERTICES: usize = 4 * IN_BOX;
 const FEWEST_VERTICES: usize = 3;
 
-/// Bits by which one of so many vertices is told.
+/// Bits by which one of so many vertices is told: as many bytes take two edges.
 pub(super) const fn bits_for(vertices: usize) -> usize {
-    (usize::BITS - vertices.saturating_sub(1).leading_zeros()) as usize
+    // Of more vertices than can be there are no more bits.
+    let highest = vertices.saturating_sub(1) % MOST_VERTICES;
+    (usize::BITS - (highest | 1 << 3).leading_zeros()) as usize
 }
 
 /// Groups of edges, which are found one after another.
@@ -97,29 +100,24 @@ impl TightGroup<'_> {
     /// Bits of a vertex's place, and the bytes of all edges.
     fn widths(&self) -> (usize, usize) {
         let bits = bits_for(self.vertices);
-        (bits, (self.edges * 4 * bits).div_ceil(8))
+        (bits, self.edges.div_ceil(2) * bits)
     }
 
-    /// Its vertices, rising; gives what bytes follow them.
-    fn read_vertices(&self, out: &mut [u16; MOST_VERTICES]) -> &[u8] {
-        let mut rest = self.bytes.get(self.widths().1..).unwrap_or_default();
+    /// Its vertices, rising; gives whether no bytes follow them.
+    fn read_vertices(&self, out: &mut [u16; MOST_VERTICES]) -> bool {
+        let rest = self.bytes.get(self.widths().1..).unwrap_or_default();
+        let mut rest = rest.iter().copied();
+        let mut next = || u16::from(rest.next().unwrap_or_default());
         let mut before = u16::MAX;
         for vertex in out.get_mut(..self.vertices).unwrap_or_default() {
-            let step = match *rest {
-                [0, low, high, ref after @ ..] => {
-                    rest = after;
-                    u16::from_le_bytes([low, high])
-                }
-                [step, ref after @ ..] => {
-                    rest = after;
-                    step.into()
-                }
-                [] => 0,
-            };
+            let mut step = next();
+            if step == 0 {
+                step = next() | next() << 8;
+            }
             before = before.wrapping_add(step);
             *vertex = before;
         }
-        rest
+        rest.len() == 0
     }
 
     /// The edges, written into `room`.
@@ -127,38 +125,36 @@ impl TightGroup<'_> {
         let GroupRoom { vertices, edges } = room;
         self.read_vertices(vertices);
         let (bits, _) = self.widths();
-        let vertex = |places: u32| vertices[(places & ((1 << bits) - 1)) as usize % MOST_VERTICES];
-        let mut first = 0;
-        let edges = edges.get_mut(..self.edges).unwrap_or_default();
-        for edge in &mut *edges {
-            // There are at least three bytes behind the last edge: its vertices.
-            let four = self.bytes.get(first / 8..).and_then(<[u8]>::first_chunk);
-            let places = u32::from_le_bytes(*four.unwrap_or(&[0; 4])) >> (first % 8);
-            // One after the other: of an iterator some compilers leave a loop.
-            *edge = [
-                vertex(places),
-                vertex(places >> bits),
-                vertex(places >> (2 * bits)),
-                vertex(places >> (3 * bits)),
+        let mut rest = self.bytes;
+        for pair in edges.as_chunks_mut::<2>().0 {
+            // The second edge ends where its bytes do.
+            let last = rest.get(bits.saturating_sub(4)..).unwrap_or_default();
+            let (Some(&first), Some(&last)) = (rest.first_chunk(), last.first_chunk()) else {
+                break;
+            };
+            let second = u32::from_le_bytes(last) >> (32 - 4 * bits);
+            *pair = [
+                edge(vertices, u32::from_le_bytes(first), bits),
+                edge(vertices, second, bits),
             ];
-            first += 4 * bits;
+            rest = rest.get(bits..).unwrap_or_default();
         }
-        edges
+        edges.get(..self.edges).unwrap_or_default()
     }
 
-    /// Whether it has as many bytes as it should, vertices of a surface of so many, and edges of these.
+    /// Whether it has no more bytes than it should, vertices of a surface of so many, and edges of these.
     fn fits(&self, of_surface: usize) -> bool {
         if !(FEWEST_VERTICES..=MOST_VERTICES).contains(&self.vertices) || self.edges == 0 {
             return false;
         }
         let mut vertices = [0; MOST_VERTICES];
-        let is_whole = self.read_vertices(&mut vertices).is_empty();
+        let is_whole = self.read_vertices(&mut vertices);
         let vertices = vertices.get(..self.vertices).unwrap_or_default();
         let rise = vertices.is_sorted_by(|a, b| a < b);
         let known = vertices
             .last()
             .is_some_and(|&last| usize::from(last) < of_surface);
-        // As long as it must be: a list that was cut ends in vertices that do not rise.
+        // A list that was cut ends in vertices that do not rise, or is whole with zeros behind it.
         is_whole && rise && known && self.places_fit()
     }
 
@@ -177,4 +173,17 @@ impl TightGroup<'_> {
         }
         (highest as usize) < self.vertices
     }
+}
+
+/// The edge whose vertices have these places in a list, four numbers of so many bits. Inlined: a call would hand all of it over in memory.
+#[inline(always)]
+fn edge(vertices: &[u16; MOST_VERTICES], places: u32, bits: usize) -> PackedEdge {
+    let mask = ((1 << bits) - 1) % MOST_VERTICES as u32;
+    // One after the other: of an iterator some compilers leave a loop.
+    [
+        vertices[(places & mask) as usize],
+        vertices[(places >> bits & mask) as usize],
+        vertices[(places >> (2 * bits) & mask) as usize],
+        vertices[(places >> (3 * bits) & mask) as usize],
+    ]
 }

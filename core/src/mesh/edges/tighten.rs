@@ -27,7 +27,7 @@ pub fn tightened(boxes: &[PackedBox], edges: &[PackedEdge]) -> Vec<u8> {
 /// The places of edges' vertices in their list, in as few bits as hold them.
 fn places(edges: &[PackedEdge], vertices: &[u16]) -> Vec<u8> {
     let bits = bits_for(vertices.len());
-    let mut bytes = vec![0; (edges.len() * 4 * bits).div_ceil(8)];
+    let mut bytes = vec![0; edges.len().div_ceil(2) * bits];
     for (number, vertex) in edges.as_flattened().iter().enumerate() {
         let place = vertices.partition_point(|other| other < vertex);
         for bit in 0..bits {
