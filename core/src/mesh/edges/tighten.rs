@@ -102,8 +102,8 @@ mod tests {
             // Of any size; middles with both signs.
             let number = |k: usize| {
                 let bits = seed.wrapping_mul(2 * k as u32 + 1) >> 4;
-                let sign = if k % 10 < 4 && k % 2 == 0 { 1 << 31 } else { 0 };
-                f32::from_bits(0x3000_0000 + bits | sign)
+                let sign = if k % 10 < 4 && k.is_multiple_of(2) { 1 << 31 } else { 0 };
+                f32::from_bits((0x3000_0000 + bits) | sign)
             };
             let boxes: Vec<PackedBox> =
                 (0..count).map(|k| core::array::from_fn(|at| number(10 * k + at))).collect();
