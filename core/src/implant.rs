@@ -6,7 +6,7 @@
 //! symmetry, its library, and how much memory they take.
 //!
 //! A microcontroller keeps it in flash and needs no memory to open it. [`ImplantFile::open`] checks all of it,
-//! [`ImplantCheck`] does so in slices of time, and [`ImplantFile::trusted`] reads the header alone, where something else, as
+//! [`ImplantCheck`] does so in slices of time, [`ImplantFile::intact`] asks its checksums alone, and [`ImplantFile::trusted`] reads the header alone, where something else, as
 //! a boot loader, has checked the bytes.
 
 mod arena;

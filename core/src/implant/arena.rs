@@ -1,6 +1,6 @@
 //! Working memory whose size is known when a program is built: of an implant file, and of the part of a frame that is looked at.
 
-use super::wire::{COUNTS_AT, HEADER_BYTES, SIZES};
+use super::wire::{COUNTS_AT, LIBRARY_BYTES_AT};
 use crate::image::mask::{Word, words_needed};
 use crate::locate::LocateNeeds;
 use crate::refine::{BorderPixel, places_needed};
@@ -36,13 +36,8 @@ impl ArenaNeeds {
     /// that are no such file, building ends with a panic.
     #[must_use]
     pub const fn of(file: &[u8], columns: usize, rows: usize) -> Self {
-        let mut library = HEADER_BYTES;
-        let mut part = 0;
-        while part < SIZES.len() {
-            let bytes = u32_at(file, COUNTS_AT + 4 * part) as usize * SIZES[part];
-            library = (library + bytes).next_multiple_of(4);
-            part += 1;
-        }
+        // It is the last part.
+        let library = file.len() - u32_at(file, LIBRARY_BYTES_AT) as usize;
         let vertices = u32_at(file, COUNTS_AT) as usize;
         let edges = u32_at(file, COUNTS_AT + 24) as usize;
         let LocateNeeds {

@@ -27,6 +27,15 @@ impl<'a> ImplantFile<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Self, ImplantError> {
         ImplantCheck::new(bytes)?.finish()
     }
+
+    /// Reads bytes in place that are as they were written: lengths and checksums, as [`Library::intact`] does. What these cannot
+    /// tell is [`Self::open`]'s to ask, where a file is made or a program is built.
+    ///
+    /// # Errors
+    /// [`ImplantError`] says what is wrong. A file in which any one bit was flipped is refused.
+    pub fn intact(bytes: &'a [u8]) -> Result<Self, ImplantError> {
+        ImplantCheck::new(bytes)?.finish_intact()
+    }
 }
 
 impl core::fmt::Debug for ImplantCheck<'_> {
@@ -68,29 +77,39 @@ impl<'a> ImplantCheck<'a> {
         self.left() > 0
     }
 
+    /// What is left of the sum, and no more: as [`ImplantFile::intact`].
+    ///
+    /// # Errors
+    /// [`ImplantError`] where it does not fit.
+    pub fn finish_intact(mut self) -> Result<ImplantFile<'a>, ImplantError> {
+        self.go_on(usize::MAX);
+        match self.sum.finish() == self.header.body_crc {
+            true => ImplantFile::trusted(self.bytes),
+            false => Err(ImplantError::Checksum("body")),
+        }
+    }
+
     /// What is left of the sum, and then what it cannot tell: that numbers are possible. That surface and library are of one model is
     /// asked where a file is written; the sum is over both.
     ///
     /// # Errors
     /// [`ImplantError`] says what is wrong.
-    pub fn finish(mut self) -> Result<ImplantFile<'a>, ImplantError> {
-        self.go_on(usize::MAX);
-        if self.sum.finish() != self.header.body_crc {
-            return Err(ImplantError::Checksum("body"));
-        }
+    pub fn finish(self) -> Result<ImplantFile<'a>, ImplantError> {
         let parts = Parts::of(&self.header, self.bytes)?;
+        let expected = self.header.bounds();
+        let file = self.finish_intact()?;
         let bounds = match parts.triangles {
             // Those of the edges are.
             [] => Mesh::check_vertices(parts.vertices)?,
             triangles => Mesh::check(parts.vertices, triangles)?,
         };
         Library::open(parts.library)?;
-        if bounds != self.header.bounds() {
+        if bounds != expected {
             return Err(ImplantError::Value("bounds"));
         }
         if !parts.edges.are_some() || !parts.edges.fit(parts.vertices.len()) {
             return Err(ImplantError::Value("edges"));
         }
-        ImplantFile::trusted(self.bytes)
+        Ok(file)
     }
 }

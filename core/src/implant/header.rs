@@ -1,7 +1,7 @@
 //! The header of an implant file.
 
 use super::error::ImplantError;
-use super::wire::{HEADER_BYTES, HEADER_CRC_AT, MAGIC, SIZES, VERSION, WITH_TRIANGLES};
+use super::wire::{AS_NUMBERS, HEADER_BYTES, HEADER_CRC_AT, MAGIC, WITH_TRIANGLES, sizes};
 use crate::checksum::checksum;
 use crate::math::Vector3;
 use crate::mesh::Bounds;
@@ -10,7 +10,8 @@ use crate::mesh::symmetry::{PLANES, SymmetryPlane};
 /// What the header says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Header {
-    /// Vertices, triangles (none since version 1), boxes, edges and rims.
+    pub(super) version: u16,
+    /// Vertices, triangles (of version 0; none of version 1; bytes of boxes and edges of version 2), boxes, edges and rims.
     pub(super) counts: [u32; 5],
     pub(super) library_bytes: u32,
     /// How far the surface lies from that of the model that it was made from at most, mm.
@@ -37,9 +38,10 @@ impl Header {
 
     /// Where the parts are in the file; `None` where no file is so long.
     pub(super) fn places(&self) -> Option<Places> {
+        let sizes = sizes(self.version)?;
         let mut places = [HEADER_BYTES; 7];
         let mut at = HEADER_BYTES;
-        for ((&count, size), end) in self.counts.iter().zip(SIZES).zip(&mut places[1..]) {
+        for ((&count, size), end) in self.counts.iter().zip(sizes).zip(&mut places[1..]) {
             let bytes = usize::try_from(count).ok()?.checked_mul(size)?;
             at = at.checked_add(bytes)?.checked_next_multiple_of(4)?;
             *end = at;
@@ -63,7 +65,7 @@ impl Header {
         let mut reader = Reader(checked.get(MAGIC.len()..).unwrap_or_default());
         // The version comes before the checksum: a later layout may keep it elsewhere.
         let version = u16::from_le_bytes(reader.bytes());
-        if version != VERSION && version != WITH_TRIANGLES {
+        if sizes(version).is_none() {
             return Err(ImplantError::Version(version));
         }
         if checksum([checked]) != Reader(rest).u32() {
@@ -71,6 +73,7 @@ impl Header {
         }
         let length = u16::from_le_bytes(reader.bytes());
         let mut header = Self {
+            version,
             counts: core::array::from_fn(|_| reader.u32()),
             library_bytes: reader.u32(),
             edges: reader.u32(),
@@ -91,13 +94,23 @@ impl Header {
             // There is room for as many.
             let _ = header.planes.push(plane);
         }
-        let has_triangles = header.counts[1] > 0;
         let is_right = usize::from(length) == HEADER_BYTES
             && planes <= PLANES
-            && has_triangles == (version == WITH_TRIANGLES);
+            && header.second_count_is_possible();
         match is_right && header.needs_are_possible() {
             true => Ok(header),
             false => Err(ImplantError::Value("header")),
+        }
+    }
+
+    /// Whether what stands second is there where it must be, and nowhere else.
+    fn second_count_is_possible(&self) -> bool {
+        let [_, second, _, edges, _] = self.counts;
+        match self.version {
+            WITH_TRIANGLES => second > 0,
+            AS_NUMBERS => second == 0,
+            // An edge takes a byte at least.
+            _ => edges <= second && (second > 0) == (edges > 0),
         }
     }
 
@@ -118,7 +131,7 @@ impl Header {
             at: 0,
         };
         writer.put(&MAGIC);
-        writer.put(&VERSION.to_le_bytes());
+        writer.put(&self.version.to_le_bytes());
         writer.put(&(HEADER_BYTES as u16).to_le_bytes());
         let counts = self.counts.iter();
         let others = [

@@ -40,21 +40,24 @@ pub fn contour_needed(model: &Model<'_>) -> ContourNeeds {
     let Some(edges) = model.edges() else {
         return most;
     };
-    let linked = || {
-        let groups = edges.groups().flat_map(|(_, group)| group.edges());
-        let packed = edges.packed().into_iter();
-        groups.chain(packed.flat_map(|(packed, _)| packed.edges()))
-    };
     for number in 0..DIRECTIONS {
         // A spiral (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006).
         let height = 1.0 - (2 * number + 1) as f64 / DIRECTIONS as f64;
         let ring = crate::math::sqrt(1.0 - height * height);
         let (sin, cos) = crate::math::sin_cos(2.399_963_229_728_653 * number as f64);
         let view = [ring * cos, height, ring * sin];
-        let seen = linked().filter(|edge| is_silhouette(model, edge, &view));
-        let (count, length) = seen.fold((0, 0.0), |(count, length), edge| {
-            (count + 1, length + length_seen(model, &edge, &view))
-        });
+        let (mut count, mut length) = (0, 0.0);
+        let mut look_at = |edge: MeshEdge| {
+            if is_silhouette(model, &edge, &view) {
+                count += 1;
+                length += length_seen(model, &edge, &view);
+            }
+        };
+        let linked = edges.groups().flat_map(|(_, group)| group.edges());
+        linked.for_each(&mut look_at);
+        if let Some((packed, _)) = edges.packed() {
+            packed.for_each_edge(look_at);
+        }
         // As if every edge ran across the rows; a part of a frame has as many as the part may be long.
         let rows = 2.0 * model.bounds().radius;
         most.edges = most.edges.max(count + edges.rims().count());

@@ -3,6 +3,7 @@
 use super::error::ImplantError;
 use super::header::{Header, Places};
 use super::needs::ContourNeeds;
+use super::wire::VERSION;
 use crate::finder::Component;
 use crate::library::{Library, digest_in};
 use crate::mesh::edges::PackedEdges;
@@ -111,17 +112,27 @@ impl<'a> Parts<'a> {
         if bytes.len() != places[6] {
             return Err(length(places[6] as u64));
         }
-        let rims = header.counts[4] as usize * 6;
+        let [_, second, boxes, edges, rims] = header.counts.map(|count| count as usize);
         let part = |number: usize| {
             bytes
                 .get(places[number]..places[number + 1])
                 .unwrap_or_default()
         };
-        let rims = part(4).get(..rims).unwrap_or_default();
-        let edges = PackedEdges::new(cast(part(2))?, cast(part(3))?, cast(rims)?);
+        let rims = cast(part(4).get(..6 * rims).unwrap_or_default())?;
+        let (triangles, edges) = match header.version {
+            VERSION => {
+                let bytes = part(1).get(..second).unwrap_or_default();
+                let edges = PackedEdges::tight(bytes, boxes, edges, rims);
+                (&[][..], Some(edges))
+            }
+            _ => {
+                let edges = PackedEdges::new(cast(part(2))?, cast(part(3))?, rims);
+                (cast(part(1))?, edges)
+            }
+        };
         Ok(Self {
             vertices: cast(part(0))?,
-            triangles: cast(part(1))?,
+            triangles,
             edges: edges.ok_or(ImplantError::Value("edges"))?,
             library: part(5),
         })

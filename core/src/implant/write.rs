@@ -6,11 +6,11 @@ use alloc::vec::Vec;
 use super::error::ImplantError;
 use super::header::Header;
 use super::needs::contour_needed;
-use super::wire::HEADER_BYTES;
+use super::wire::{HEADER_BYTES, VERSION};
 use crate::checksum::checksum;
 use crate::library::Library;
 use crate::mesh::Model;
-use crate::mesh::edges::{PackMemory, pack_edges, packed_needed};
+use crate::mesh::edges::{PackMemory, pack_edges, packed_needed, tightened};
 use crate::mesh::symmetry::SymmetryPlane;
 
 /// The bytes of an implant file: a model with its edges, the library that was made from it, its planes of near-symmetry, and
@@ -42,16 +42,17 @@ pub fn write_implant(
         return Err(ImplantError::Edges);
     }
     let contour = contour_needed(model);
+    let tight = tightened(&boxes, &packed);
     let lengths = [
         model.vertices().len(),
-        // They are found again from the edges.
-        0,
+        tight.len(),
         boxes.len(),
         packed.len(),
         rims.len(),
     ];
     let bounds = model.bounds();
     let mut header = Header {
+        version: VERSION,
         counts: lengths.map(|length| length as u32),
         library_bytes: library.len() as u32,
         deviation_mm,
@@ -65,8 +66,8 @@ pub fn write_implant(
     let mut bytes = vec![0; HEADER_BYTES];
     let numbers = model.vertices().iter().flatten();
     bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
-    bytes.extend(boxes.iter().flatten().flat_map(|x| x.to_le_bytes()));
-    bytes.extend(packed.iter().flatten().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(tight);
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
     bytes.extend(rims.iter().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.resize(bytes.len().next_multiple_of(4), 0);
     bytes.extend(library);

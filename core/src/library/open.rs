@@ -43,13 +43,28 @@ pub(super) fn library_bytes(canonical: &CanonicalSpec, grid: &ViewGrid) -> Optio
 }
 
 impl<'a> Library<'a> {
-    /// Checks `bytes` and reads them in place: heading, length, both checksums, that every
+    /// Checks `bytes` and reads them in place: all that [`Self::intact`] does, that every
     /// number is finite and possible, that runs stay in their frames and sketches are those of
     /// their runs. Takes time proportional to the length, once.
     ///
     /// # Errors
     /// [`LibraryError`] says what is wrong. A file in which any one bit was flipped is refused.
     pub fn open(bytes: &'a [u8]) -> Result<Self, LibraryError> {
+        let library = Self::intact(bytes)?;
+        library.check_records()?;
+        if let Views::Compact(compact) = &library.views {
+            compact.check(&library.info)?;
+        }
+        Ok(library)
+    }
+
+    /// Reads bytes in place that are as they were written: heading, length and both checksums. What these cannot tell, that what was
+    /// written is possible, does not change with time: [`Self::open`] asks it where a file is made or a program is built, a
+    /// device that starts again each day need not. Takes a fifth of its time.
+    ///
+    /// # Errors
+    /// [`LibraryError`] says what is wrong. A file in which any one bit was flipped is refused.
+    pub fn intact(bytes: &'a [u8]) -> Result<Self, LibraryError> {
         let (header, rest) = split_header(bytes)?;
         let (info, body) = read_header(header)?;
         let given = bytes.len() as u64;
@@ -65,12 +80,7 @@ impl<'a> Library<'a> {
         if checksum([rest]) != body.crc {
             return Err(LibraryError::Checksum("body"));
         }
-        let library = Self::split(rest, info, &body)?;
-        library.check_records()?;
-        if let Views::Compact(compact) = &library.views {
-            compact.check(&info)?;
-        }
-        Ok(library)
+        Self::split(rest, info, &body)
     }
 
     /// Reads bytes in place of which it is known that they are whole and right, as [`Self::open`] would have found.

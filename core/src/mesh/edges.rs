@@ -10,6 +10,9 @@ mod measured;
 mod orient;
 mod pack;
 mod packed;
+mod tight;
+#[cfg(any(feature = "alloc", test))]
+mod tighten;
 
 pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
@@ -22,3 +25,5 @@ pub(crate) use measured::Facing;
 pub use pack::{PackMemory, PackedNeeds, pack_edges, packed_needed};
 pub(crate) use packed::unpacked;
 pub use packed::{PackedBox, PackedEdge, PackedEdges, PackedRim};
+#[cfg(any(feature = "alloc", test))]
+pub use tighten::tightened;

@@ -10,7 +10,9 @@
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
 use crate::math::{norm, sqrt};
-use crate::mesh::edges::{EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdge, unpacked};
+use crate::mesh::edges::{
+    EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdge, PackedEdges, unpacked,
+};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::render::project::Images;
@@ -117,22 +119,30 @@ impl FacingTest {
         }
     }
 
-    /// The same of packed edges, whose triangles are measured from their vertices.
+    /// The same of all packed edges, whose triangles are measured from their vertices.
     pub(crate) fn packed_contour(
         &self,
-        bounds: &EdgeBox,
-        (group, measure): (&[PackedEdge], Facing),
+        (packed, measure): (&PackedEdges<'_>, Facing),
         images: &mut Images<'_>,
         mut visit: impl FnMut([u32; 2]),
     ) {
         let [per_mm, least, rounding] = self.margins;
-        if self.is_clear(
-            bounds,
-            bounds.thin * per_mm + bounds.small * least + rounding,
-        ) {
-            return;
-        }
-        for edge in group {
+        let is_wanted = |bounds: &EdgeBox| {
+            let margin = bounds.thin * per_mm + bounds.small * least + rounding;
+            !self.is_clear(bounds, margin)
+        };
+        packed.for_each_group(is_wanted, |edges| {
+            self.measured_contour((edges, measure), images, &mut visit);
+        });
+    }
+
+    fn measured_contour(
+        &self,
+        (edges, measure): (&[PackedEdge], Facing),
+        images: &mut Images<'_>,
+        visit: &mut impl FnMut([u32; 2]),
+    ) {
+        for edge in edges {
             let edge = unpacked(edge);
             let (Some(from), Some(to), Some(forth), Some(back)) = (
                 images.vertex(edge.from),
@@ -154,11 +164,11 @@ impl FacingTest {
 
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.
     fn is_clear(&self, bounds: &EdgeBox, margin: f32) -> bool {
-        let (mut from_middle, mut reach) = (-bounds.middle[3], bounds.reach[3] + margin);
-        for (k, x) in self.place.iter().enumerate() {
-            from_middle += x * bounds.middle[k];
-            reach += x.abs() * bounds.reach[k];
-        }
+        let ([x, y, z], [a, b, c, d]) = (self.place, bounds.middle);
+        let [right, up, near, along] = bounds.reach;
+        // One after the other: of an iterator some compilers leave a loop.
+        let from_middle = -d + x * a + y * b + z * c;
+        let reach = along + margin + x.abs() * right + y.abs() * up + z.abs() * near;
         from_middle.abs() > reach
     }
 
@@ -226,15 +236,12 @@ mod tests {
             facing.contour(bounds, group, &mut images, |ends| found.push(ends));
         }
         let packed = linked.packed();
-        let mut again = Vec::new();
-        let edges = packed.edges();
-        let (groups, faces) = edges.packed().expect("they are packed");
-        for (bounds, group) in groups.groups() {
-            facing.packed_contour(&bounds, (group, faces), &mut images, |ends| {
-                again.push(ends)
-            });
+        for edges in [packed.edges(), packed.tight_edges()] {
+            let mut again = Vec::new();
+            let packed = edges.packed().expect("they are packed");
+            facing.packed_contour(packed, &mut images, |ends| again.push(ends));
+            assert_eq!(again, found);
         }
-        assert_eq!(again, found);
         let images = project(mesh, &camera, pose, &mut slots).expect("in front");
         let faces = |corners: [u32; 3]| {
             FixedPoint::doubled_area(corners.map(|vertex| images[vertex as usize])) > 0

@@ -130,12 +130,8 @@ fn find_contour(
     for (bounds, group) in edges.groups() {
         facing.contour(bounds, group, images, |ends| keep(ends, &mut both));
     }
-    if let Some((packed, faces)) = edges.packed() {
-        for (bounds, group) in packed.groups() {
-            facing.packed_contour(&bounds, (group, faces), images, |ends| {
-                keep(ends, &mut both)
-            });
-        }
+    if let Some(packed) = edges.packed() {
+        facing.packed_contour(packed, images, |ends| keep(ends, &mut both));
     }
     let faces = |rim: &RimEdge, images: &mut Images<'_>| {
         let corners = [rim.from, rim.to, rim.third].map(|vertex| images.of(vertex));
@@ -421,8 +417,10 @@ mod tests {
             prop_assert!(fill(&facing, &edges, &mut images, &mut room, &mut out));
             prop_assert_eq!(&words, &draw(&Model::new(mesh), &pose));
             let packed = linked.packed();
-            let packed = Model::with_edges(mesh, packed.edges()).expect("its own");
-            prop_assert_eq!(words, draw(&packed, &pose));
+            for edges in [packed.edges(), packed.tight_edges()] {
+                let packed = Model::with_edges(mesh, edges).expect("its own");
+                prop_assert_eq!(&words, &draw(&packed, &pose));
+            }
         }
     }
 

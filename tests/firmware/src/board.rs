@@ -42,7 +42,7 @@ fn prove(board: &mut impl Board, memory: &mut Memory, told: &mut Told) -> fmt::R
     let mut stage = |name: &str| {
         let instructions = board.instructions();
         if let Ok(name) = heapless::String::try_from(name) {
-            // A ninth stage would not be told; there are at most six.
+            // A ninth stage would not be told; there are at most seven.
             let _ = stages.push((instructions, name));
         }
     };

@@ -27,10 +27,12 @@ pub(crate) fn calibrated() -> Result<Camera, CameraError> {
     Camera::from_principal_distance(FRAME_SIDE, FRAME_SIDE, 1000.0, 0.4, [0.0; 2])
 }
 
-/// The implant, checked and then trusted.
+/// The implant, checked in all, by its checksums, and then trusted.
 pub(crate) fn opened(stage: &mut dyn FnMut(&str)) -> Result<ImplantFile<'static>, Failure> {
     check()?;
     stage("implant opened, checked");
+    sum()?;
+    stage("implant opened, its checksums asked");
     let implant = ImplantFile::trusted(&IMPLANT.0)?;
     stage("implant opened, trusted");
     Ok(implant)
@@ -40,5 +42,12 @@ pub(crate) fn opened(stage: &mut dyn FnMut(&str)) -> Result<ImplantFile<'static>
 #[inline(never)]
 fn check() -> Result<(), Failure> {
     ImplantFile::open(&IMPLANT.0)?;
+    Ok(())
+}
+
+/// Checks that no byte has changed since.
+#[inline(never)]
+fn sum() -> Result<(), Failure> {
+    ImplantFile::intact(&IMPLANT.0)?;
     Ok(())
 }

@@ -19,10 +19,12 @@ const ROWS: usize = 288;
 
 fluoropose::locate_arena!(pub Memory, LIBRARY, columns: COLUMNS, rows: ROWS);
 
-/// The library, checked and then trusted.
+/// The library, checked in all, by its checksums, and then trusted.
 pub(crate) fn opened(stage: &mut dyn FnMut(&str)) -> Result<Library<'static>, Failure> {
     check()?;
     stage("library opened, checked");
+    sum()?;
+    stage("library opened, its checksums asked");
     let library = Library::trusted(LIBRARY)?;
     stage("library opened, trusted");
     Ok(library)
@@ -32,6 +34,13 @@ pub(crate) fn opened(stage: &mut dyn FnMut(&str)) -> Result<Library<'static>, Fa
 #[inline(never)]
 fn check() -> Result<(), Failure> {
     Library::open(LIBRARY)?;
+    Ok(())
+}
+
+/// Checks that no byte has changed since.
+#[inline(never)]
+fn sum() -> Result<(), Failure> {
+    Library::intact(LIBRARY)?;
     Ok(())
 }
 

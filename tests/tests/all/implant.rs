@@ -132,36 +132,46 @@ fn drawn_by_triangles(model: &Model<'_>, camera: &Camera, euler: EulerPose) -> V
     words
 }
 
-/// A file of the first layout, with a list of triangles.
+/// Files of the first layouts: with a list of triangles, and with edges as numbers.
 #[test]
-fn files_of_the_first_version_are_read() {
-    let path = fluoropose_tests::home().join("golden/version-0.implant");
-    let words = Words::of(&std::fs::read(path).expect("kept"));
-    let file = ImplantFile::open(words.bytes()).expect("whole");
-    let (model, library) = (file.model(), file.library());
+fn files_of_earlier_versions_are_read() {
+    let kept = [0, 1].map(|version| {
+        let path = format!("golden/version-{version}.implant");
+        let path = fluoropose_tests::home().join(path);
+        Words::of(&std::fs::read(path).expect("kept"))
+    });
+    let [first, second] = kept
+        .each_ref()
+        .map(|words| ImplantFile::open(words.bytes()).expect("whole"));
+    let (model, library) = (first.model(), first.library());
     assert_eq!((model.triangles().len(), library.views()), (140, 9));
-    assert_eq!((file.planes().len(), file.deviation_mm()), (3, 0.125));
-    // Written again it has none, and is the same implant.
+    assert_eq!((first.planes().len(), first.deviation_mm()), (3, 0.125));
+    // Written again it has neither, and is the same implant.
     let vertices = model.vertices().as_flattened().to_vec();
     let triangles = model.triangles().as_flattened().to_vec();
     let own = OwnedModel::new(vertices, triangles).expect("valid");
-    let bytes = &words.bytes()[words.bytes().len() - library_bytes(words.bytes())..];
-    let again = write_implant(&own.as_model(), bytes, file.planes(), file.deviation_mm());
+    let bytes = first.bytes();
+    let views = &bytes[bytes.len() - library_bytes(bytes)..];
+    let again = write_implant(&own.as_model(), views, first.planes(), first.deviation_mm());
     let again = Words::of(&again.expect("written"));
-    let again = ImplantFile::open(again.bytes()).expect("whole");
-    assert_eq!(again.bytes().len() + 12 * 140, words.bytes().len());
-    assert_eq!(triangles_of(again.model()), triangles_of(model));
+    let third = ImplantFile::open(again.bytes()).expect("whole");
+    assert_eq!(second.bytes().len() + 12 * 140, bytes.len());
+    assert!(third.bytes().len() + 3 * 210 < second.bytes().len());
     let camera = library.info().camera;
-    for euler in many_poses().take(20) {
-        let euler = EulerPose {
-            x_mm: 0.0,
-            y_mm: 0.0,
-            ..euler
-        };
-        assert_eq!(
-            drawn_by_triangles(again.model(), &camera, euler),
-            drawn_by_triangles(model, &camera, euler)
-        );
+    for other in [second, third] {
+        assert_eq!(triangles_of(other.model()), triangles_of(model));
+        assert_eq!(other.contour_needs(), first.contour_needs());
+        for euler in many_poses().take(20) {
+            let euler = EulerPose {
+                x_mm: 0.0,
+                y_mm: 0.0,
+                ..euler
+            };
+            assert_eq!(
+                drawn_by_triangles(other.model(), &camera, euler),
+                drawn_by_triangles(model, &camera, euler)
+            );
+        }
     }
 }
 
@@ -177,9 +187,10 @@ fn what_is_known_of_an_implant_is_read_back() {
     let (bytes, model) = (words.bytes(), own.as_model());
     let file = ImplantFile::open(bytes).expect("whole");
     let trusted = ImplantFile::trusted(bytes).expect("long enough");
+    let intact = ImplantFile::intact(bytes).expect("whole");
     let mut check = ImplantCheck::new(bytes).expect("a header");
     while check.go_on(1000) {}
-    for file in [file, trusted, check.finish().expect("whole")] {
+    for file in [file, trusted, intact, check.finish().expect("whole")] {
         assert_eq!(file.model().vertices(), model.vertices());
         assert_eq!(triangles_of(file.model()), triangles_of(&model));
         assert!(file.model().triangles().is_empty());

@@ -11,6 +11,8 @@ use crate::mesh::Mesh;
 
 /// Edges in a box.
 pub(crate) const IN_BOX: usize = 16;
+/// A box's ten numbers as 16 bits each, little-endian.
+pub(super) type Halves = [[u8; 2]; 10];
 
 /// Cosine of the angle between the normals of an edge's two triangles beyond which they count as far apart.
 const SHARP: f64 = 0.9;
@@ -177,6 +179,34 @@ impl EdgeBox {
         }
     }
 
+    /// A box around this one whose numbers are the upper halves of such of 32 bits.
+    #[cfg(any(feature = "alloc", test))]
+    pub(super) fn halves(&self) -> Halves {
+        let mut halves = self.numbers().map(upper_half);
+        let (middle, others) = halves.split_at_mut(4);
+        for (k, middle) in middle.iter().enumerate() {
+            let moved = (self.middle[k] - whole(*middle)).abs();
+            // The sum may be rounded down.
+            others[k] = half_above((self.reach[k] + moved).next_up());
+        }
+        others[4] = half_above(self.thin);
+        others[5] = half_above(self.small);
+        halves.map(u16::to_le_bytes)
+    }
+
+    /// What [`Self::halves`] gave.
+    #[inline(always)]
+    pub(super) fn of_halves(halves: &Halves) -> Self {
+        // One after the other: of an iterator some compilers leave a loop.
+        let number = |at: usize| whole(u16::from_le_bytes(halves[at]));
+        Self {
+            middle: [number(0), number(1), number(2), number(3)],
+            reach: [number(4), number(5), number(6), number(7)],
+            thin: number(8),
+            small: number(9),
+        }
+    }
+
     /// The smallest box that holds some triangles.
     fn round(duals: impl Iterator<Item = Dual>) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
@@ -197,4 +227,23 @@ impl EdgeBox {
             small,
         }
     }
+}
+
+/// The upper half of a number's bits.
+#[cfg(any(feature = "alloc", test))]
+fn upper_half(number: f32) -> u16 {
+    (number.to_bits() >> 16) as u16
+}
+
+/// The upper half of the least such number that is no less than one from 0 on.
+#[cfg(any(feature = "alloc", test))]
+fn half_above(number: f32) -> u16 {
+    let half = upper_half(number);
+    half + u16::from(whole(half) < number)
+}
+
+/// The number whose upper half is this, the lower one zero.
+#[inline(always)]
+fn whole(half: u16) -> f32 {
+    f32::from_bits(u32::from(half) << 16)
 }

@@ -2,7 +2,7 @@
 
 use super::{
     EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, PackMemory, PackedBox, PackedEdge,
-    PackedEdges, PackedRim, RimEdge, link, link_needed, pack_edges, packed_needed,
+    PackedEdges, PackedRim, RimEdge, link, link_needed, pack_edges, packed_needed, tightened,
 };
 use crate::mesh::{Mesh, Model, SurfaceMark};
 use std::vec;
@@ -49,6 +49,7 @@ impl Linked {
             boxes: vec![[0.0; 10]; needs.boxes],
             edges: vec![[0; 4]; needs.edges],
             rims: vec![[0; 3]; needs.rims],
+            tight: Vec::new(),
             mark: self.mark,
         };
         let memory = PackMemory {
@@ -58,6 +59,7 @@ impl Linked {
         };
         let small = pack_edges(&self.edges(), memory).expect("enough memory");
         assert!(small.is_some(), "few vertices");
+        packed.tight = tightened(&packed.boxes, &packed.edges);
         packed
     }
 
@@ -72,10 +74,18 @@ pub(crate) struct Packed {
     boxes: Vec<PackedBox>,
     edges: Vec<PackedEdge>,
     rims: Vec<PackedRim>,
+    tight: Vec<u8>,
     mark: SurfaceMark,
 }
 
 impl Packed {
+    /// The same as a stream of bytes.
+    pub(crate) fn tight_edges(&self) -> Edges<'_> {
+        let (boxes, edges) = (self.boxes.len(), self.edges.len());
+        let tight = PackedEdges::tight(&self.tight, boxes, edges, &self.rims);
+        Edges::of_packed(tight, self.mark)
+    }
+
     pub(crate) fn edges(&self) -> Edges<'_> {
         let packed = PackedEdges::new(&self.boxes, &self.edges, &self.rims);
         Edges::of_packed(packed.expect("as many"), self.mark)

@@ -5,6 +5,7 @@
 
 use super::boxes::{EdgeBox, IN_BOX};
 use super::edge::{MeshEdge, RimEdge};
+use super::tight::{GroupRoom, TightGroups};
 
 /// A box as numbers: middle and reach of its triangles' duals, greatest reciprocals of a height and of a doubled area.
 pub type PackedBox = [f32; 10];
@@ -18,6 +19,8 @@ pub type PackedRim = [u16; 3];
 pub struct PackedEdges<'e> {
     boxes: &'e [PackedBox],
     edges: &'e [PackedEdge],
+    /// Instead of boxes and edges.
+    tight: TightGroups<'e>,
     rims: &'e [PackedRim],
 }
 
@@ -29,10 +32,26 @@ impl<'e> PackedEdges<'e> {
         edges: &'e [PackedEdge],
         rims: &'e [PackedRim],
     ) -> Option<Self> {
-        (boxes.len() == edges.len().div_ceil(IN_BOX)).then_some(Self { boxes, edges, rims })
+        (boxes.len() == edges.len().div_ceil(IN_BOX)).then_some(Self {
+            boxes,
+            edges,
+            tight: TightGroups::default(),
+            rims,
+        })
     }
 
-    /// The numbers themselves.
+    /// So many edges in so many boxes, as `tightened` wrote them. Of other bytes there are fewer: [`Self::fit`] tells.
+    #[must_use]
+    pub fn tight(bytes: &'e [u8], boxes: usize, edges: usize, rims: &'e [PackedRim]) -> Self {
+        Self {
+            boxes: &[],
+            edges: &[],
+            tight: TightGroups::new(bytes, boxes, edges),
+            rims,
+        }
+    }
+
+    /// The numbers themselves; rims alone of what was tightened.
     #[must_use]
     pub fn parts(&self) -> (&'e [PackedBox], &'e [PackedEdge], &'e [PackedRim]) {
         (self.boxes, self.edges, self.rims)
@@ -41,25 +60,16 @@ impl<'e> PackedEdges<'e> {
     /// Whether there are any: else nothing is drawn.
     #[must_use]
     pub fn are_some(&self) -> bool {
-        !(self.edges.is_empty() && self.rims.is_empty())
+        !self.edges.is_empty() || self.tight.edges() > 0 || !self.rims.is_empty()
     }
 
     /// Whether all are edges of a surface of so many vertices.
     #[must_use]
     pub fn fit(&self, vertices: usize) -> bool {
         let known = |&vertex: &u16| usize::from(vertex) < vertices;
-        self.edges.iter().flatten().all(known) && self.rims.iter().flatten().all(known)
-    }
-
-    /// Boxes and the edges in each.
-    pub(crate) fn groups(&self) -> impl Iterator<Item = (EdgeBox, &'e [PackedEdge])> + use<'e> {
-        let boxes = self.boxes.iter().map(EdgeBox::of_numbers);
-        boxes.zip(self.edges.chunks(IN_BOX))
-    }
-
-    /// All edges.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<'e> {
-        self.edges.iter().map(unpacked)
+        self.edges.iter().flatten().all(known)
+            && self.rims.iter().flatten().all(known)
+            && self.tight.fit(vertices)
     }
 
     /// Edges of one triangle alone.
@@ -72,6 +82,33 @@ impl<'e> PackedEdges<'e> {
 }
 
 impl PackedEdges<'_> {
+    /// Calls `visit` with the edges of each box that is wanted.
+    pub(crate) fn for_each_group(
+        &self,
+        mut is_wanted: impl FnMut(&EdgeBox) -> bool,
+        mut visit: impl FnMut(&[PackedEdge]),
+    ) {
+        for (numbers, edges) in self.boxes.iter().zip(self.edges.chunks(IN_BOX)) {
+            if is_wanted(&EdgeBox::of_numbers(numbers)) {
+                visit(edges);
+            }
+        }
+        let mut room = GroupRoom::EMPTY;
+        for (halves, group) in self.tight {
+            if is_wanted(&EdgeBox::of_halves(halves)) {
+                visit(group.unpacked(&mut room));
+            }
+        }
+    }
+
+    /// Calls `visit` with each edge.
+    pub(crate) fn for_each_edge(&self, mut visit: impl FnMut(MeshEdge)) {
+        self.for_each_group(
+            |_| true,
+            |edges| edges.iter().map(unpacked).for_each(&mut visit),
+        );
+    }
+
     /// Calls `visit` with each triangle of the surface, run as its neighbours are. Of its three edges one does: that before
     /// which its highest vertex lies.
     pub(crate) fn for_each_triangle(&self, mut visit: impl FnMut(&[u32; 3])) {
@@ -80,10 +117,11 @@ impl PackedEdges<'_> {
                 visit(&[from, to, third].map(u32::from));
             }
         };
-        for &[from, to, forth, back] in self.edges {
+        let mut both = |&[from, to, forth, back]: &PackedEdge| {
             side([from, to, forth]);
             side([to, from, back]);
-        }
+        };
+        self.for_each_group(|_| true, |edges| edges.iter().for_each(&mut both));
         self.rims.iter().copied().for_each(side);
     }
 }
@@ -133,11 +171,12 @@ mod tests {
                 corners.iter().map(|corners| corners.map(|corner| corner % vertices.len() as u32)).collect();
             let Ok(mesh) = Mesh::new(&vertices, &triangles) else { return Ok(()) };
             let packed = Linked::new(&mesh).packed();
-            let mut found = Vec::new();
-            let edges = packed.edges();
-            let (packed, _) = edges.packed().expect("packed");
-            packed.for_each_triangle(|&triangle| found.push(triangle));
-            prop_assert_eq!(places(&vertices, &found), places(&vertices, &triangles));
+            for edges in [packed.edges(), packed.tight_edges()] {
+                let mut found = Vec::new();
+                let (packed, _) = edges.packed().expect("packed");
+                packed.for_each_triangle(|&triangle| found.push(triangle));
+                prop_assert_eq!(places(&vertices, &found), places(&vertices, &triangles));
+            }
         }
     }
 }

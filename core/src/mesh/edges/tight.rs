@@ -1,0 +1,189 @@
+//! Edges between two triangles as a stream of bytes, two thirds of what [`PackedEdge`]s and their boxes take: groups of
+//! sixteen, which are read one after another.
+//!
+//! Edges of one group lie near each other, so they have few vertices, whose numbers lie near each other. A group, in this order:
+//!
+//! - its box: ten numbers of which each is the upper half of one of 32 bits (`boxes.rs`);
+//! - the bytes of all that follows these two, and the number of its vertices (u8 each);
+//! - its edges: from, to and the third vertices of the triangles that run it forth and back, each by its place in the list below, in
+//!   as few bits as hold these places, four at least, from the lowest bit of a byte on: two edges are whole bytes, and where there is
+//!   no second one zeros stand for it;
+//! - its vertices, rising: by how much each is more than the one before it, the first more than -1: a byte, or a zero and then two.
+
+use super::boxes::{Halves, IN_BOX};
+use super::packed::PackedEdge;
+
+/// Vertices of the edges in one box at most, and at least.
+pub(super) const MOST_VERTICES: usize = 4 * IN_BOX;
+const FEWEST_VERTICES: usize = 3;
+
+/// Bits by which one of so many vertices is told: as many bytes take two edges.
+pub(super) const fn bits_for(vertices: usize) -> usize {
+    // Of more vertices than can be there are no more bits.
+    let highest = vertices.saturating_sub(1) % MOST_VERTICES;
+    (usize::BITS - (highest | 1 << 3).leading_zeros()) as usize
+}
+
+/// Groups of edges, which are found one after another.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TightGroups<'e> {
+    bytes: &'e [u8],
+    /// How many there are, and how many edges they have together.
+    boxes: usize,
+    edges: usize,
+}
+
+/// The edges in a box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TightGroup<'e> {
+    /// Edges, then vertices.
+    bytes: &'e [u8],
+    vertices: usize,
+    edges: usize,
+}
+
+/// Where a group's vertices and edges are written.
+pub(super) struct GroupRoom {
+    vertices: [u16; MOST_VERTICES],
+    edges: [PackedEdge; IN_BOX],
+}
+
+impl GroupRoom {
+    pub(super) const EMPTY: Self = Self {
+        vertices: [0; MOST_VERTICES],
+        edges: [[0; 4]; IN_BOX],
+    };
+}
+
+impl<'e> TightGroups<'e> {
+    pub(super) fn new(bytes: &'e [u8], boxes: usize, edges: usize) -> Self {
+        Self {
+            bytes,
+            boxes,
+            edges,
+        }
+    }
+
+    /// How many edges are left.
+    pub(super) fn edges(&self) -> usize {
+        self.edges
+    }
+
+    /// Whether they are that, of a surface of so many vertices, and nothing is behind them.
+    pub(super) fn fit(mut self, vertices: usize) -> bool {
+        let fitting = (&mut self).filter(|(_, group)| group.fits(vertices));
+        fitting.count() == self.boxes && self.edges == 0 && self.bytes.is_empty()
+    }
+}
+
+impl<'e> Iterator for TightGroups<'e> {
+    type Item = (&'e Halves, TightGroup<'e>);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        let (halves, rest) = self.bytes.split_first_chunk::<{ size_of::<Halves>() }>()?;
+        let (&[length, vertices], rest) = rest.split_first_chunk()?;
+        let (bytes, rest) = rest.split_at_checked(length.into())?;
+        let edges = self.edges.min(IN_BOX);
+        self.edges -= edges;
+        self.bytes = rest;
+        let group = TightGroup {
+            bytes,
+            vertices: vertices.into(),
+            edges,
+        };
+        Some((bytemuck::cast_ref(halves), group))
+    }
+}
+
+impl TightGroup<'_> {
+    /// Bits of a vertex's place, and the bytes of all edges.
+    fn widths(&self) -> (usize, usize) {
+        let bits = bits_for(self.vertices);
+        (bits, self.edges.div_ceil(2) * bits)
+    }
+
+    /// Its vertices, rising; gives whether no bytes follow them.
+    fn read_vertices(&self, out: &mut [u16; MOST_VERTICES]) -> bool {
+        let rest = self.bytes.get(self.widths().1..).unwrap_or_default();
+        let mut rest = rest.iter().copied();
+        let mut next = || u16::from(rest.next().unwrap_or_default());
+        let mut before = u16::MAX;
+        for vertex in out.get_mut(..self.vertices).unwrap_or_default() {
+            let mut step = next();
+            if step == 0 {
+                step = next() | next() << 8;
+            }
+            before = before.wrapping_add(step);
+            *vertex = before;
+        }
+        rest.len() == 0
+    }
+
+    /// The edges, written into `room`.
+    pub(super) fn unpacked<'r>(&self, room: &'r mut GroupRoom) -> &'r [PackedEdge] {
+        let GroupRoom { vertices, edges } = room;
+        self.read_vertices(vertices);
+        let (bits, _) = self.widths();
+        let mut rest = self.bytes;
+        for pair in edges.as_chunks_mut::<2>().0 {
+            // The second edge ends where its bytes do.
+            let last = rest.get(bits.saturating_sub(4)..).unwrap_or_default();
+            let (Some(&first), Some(&last)) = (rest.first_chunk(), last.first_chunk()) else {
+                break;
+            };
+            let second = u32::from_le_bytes(last) >> (32 - 4 * bits);
+            *pair = [
+                edge(vertices, u32::from_le_bytes(first), bits),
+                edge(vertices, second, bits),
+            ];
+            rest = rest.get(bits..).unwrap_or_default();
+        }
+        edges.get(..self.edges).unwrap_or_default()
+    }
+
+    /// Whether it has no more bytes than it should, vertices of a surface of so many, and edges of these.
+    fn fits(&self, of_surface: usize) -> bool {
+        if !(FEWEST_VERTICES..=MOST_VERTICES).contains(&self.vertices) || self.edges == 0 {
+            return false;
+        }
+        let mut vertices = [0; MOST_VERTICES];
+        let is_whole = self.read_vertices(&mut vertices);
+        let vertices = vertices.get(..self.vertices).unwrap_or_default();
+        let rise = vertices.is_sorted_by(|a, b| a < b);
+        let known = vertices
+            .last()
+            .is_some_and(|&last| usize::from(last) < of_surface);
+        // A list that was cut ends in vertices that do not rise, or is whole with zeros behind it.
+        is_whole && rise && known && self.places_fit()
+    }
+
+    /// Whether every edge is of vertices in the list.
+    fn places_fit(&self) -> bool {
+        let (bits, bytes) = self.widths();
+        let (mut all, mut have) = (0u32, 0);
+        let mut highest = 0;
+        for &byte in self.bytes.get(..bytes).unwrap_or_default() {
+            all |= u32::from(byte) << have;
+            have += 8;
+            while have >= bits {
+                highest = highest.max(all & ((1 << bits) - 1));
+                (all, have) = (all >> bits, have - bits);
+            }
+        }
+        (highest as usize) < self.vertices
+    }
+}
+
+/// The edge whose vertices have these places in a list, four numbers of so many bits. Inlined: a call would hand all of it over in memory.
+#[inline(always)]
+fn edge(vertices: &[u16; MOST_VERTICES], places: u32, bits: usize) -> PackedEdge {
+    let mask = ((1 << bits) - 1) % MOST_VERTICES as u32;
+    // One after the other: of an iterator some compilers leave a loop.
+    [
+        vertices[(places & mask) as usize],
+        vertices[(places >> bits & mask) as usize],
+        vertices[(places >> (2 * bits) & mask) as usize],
+        vertices[(places >> (3 * bits) & mask) as usize],
+    ]
+}
