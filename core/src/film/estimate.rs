@@ -13,8 +13,9 @@ mod unknowns;
 
 use core::fmt;
 
+use drawing::sharpening;
 use guards::Confirmed;
-use solver::{Fit, sharpening};
+use solver::Fit;
 use unknowns::{AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, RADIUS, UNKNOWNS};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 

@@ -1,11 +1,18 @@
 //! What some constants make of profiles, ready for many of them.
 
-use super::solver::sharpening;
-use super::unknowns::{BLUR, CURVATURE, MOST_COMPONENTS, Vector};
+use super::unknowns::{AMOUNT, BLUR, CURVATURE, MOST_COMPONENTS, RADIUS, Vector};
 use crate::film::model::{Drawn, LineBlur, transmission};
 use crate::film::profile::FilmProfile;
-use crate::film::sharpening::{MetalContrast, UnsharpMask};
+use crate::film::sharpening::{MetalContrast, Sharpening, UnsharpMask};
 use crate::math::exp;
+
+/// How edges are enhanced.
+pub(super) fn sharpening(at: &Vector) -> Sharpening {
+    Sharpening {
+        amount: at[AMOUNT],
+        radius_px: exp(at[RADIUS]),
+    }
+}
 
 /// Constants, and the filters that they are.
 pub(super) struct Drawing {
@@ -56,7 +63,7 @@ impl Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::estimate::unknowns::{AMOUNT, RADIUS, UNKNOWNS};
+    use crate::film::estimate::unknowns::UNKNOWNS;
     use crate::film::lines::POINTS;
     use crate::film::{FilmConstants, FilmModel};
     use proptest::prelude::*;

@@ -12,8 +12,8 @@ use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::given::GivenFilm;
 use crate::film::model::{LEAST_BLUR, MOST_BLUR};
 use crate::film::profile::{FilmProfile, READINGS};
-use crate::film::sharpening::{MOST_AMOUNT, RADII, Sharpening};
-use crate::math::{exp, ln, solve_spd};
+use crate::film::sharpening::{MOST_AMOUNT, RADII};
+use crate::math::{ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.
 const STARTS: [f64; 8] = [-0.3, 0.3, 0.9, 1.5, 2.2, 3.0, 4.0, 5.5];
@@ -35,14 +35,6 @@ pub(super) const UNEXPLAINED: f64 = 4.6;
 pub(super) const FEW: usize = 320;
 /// Consecutive profiles that err alike.
 const TOGETHER: usize = 8;
-
-/// How edges are enhanced.
-pub(super) fn sharpening(at: &Vector) -> Sharpening {
-    Sharpening {
-        amount: at[AMOUNT],
-        radius_px: exp(at[RADIUS]),
-    }
-}
 
 fn ln_of_blur(blur_px: f64) -> f64 {
     ln(blur_px.clamp(LEAST_BLUR, MOST_BLUR))
