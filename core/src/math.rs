@@ -9,4 +9,5 @@ pub(crate) mod eigen;
 pub use angle::sin_cos;
 pub use basic::*;
 pub use decimal::Decimal;
+pub(crate) use definite::solve_few;
 pub use definite::{inverse_spd, solve_spd};

@@ -4,6 +4,7 @@
 //! the poses that they were read at. What is minimised is `sum log(1 + RSS / n)` over profiles, with the square `n` of a small
 //! part of the contrast, by Gauss and Newton with weights made anew, from several curvatures, because there are local minima.
 
+mod drawing;
 mod equations;
 mod guards;
 mod sharpen;
@@ -12,8 +13,9 @@ mod unknowns;
 
 use core::fmt;
 
+use drawing::sharpening;
 use guards::Confirmed;
-use solver::{Fit, sharpening};
+use solver::Fit;
 use unknowns::{AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, RADIUS, UNKNOWNS};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 

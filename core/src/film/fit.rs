@@ -8,7 +8,7 @@ use super::lines::{INNER, POINTS, STEP};
 use super::model::Drawn;
 use super::profile::{FIRST_READING, FilmProfile, READING_STEP, READINGS};
 use crate::image::display::exp_quick;
-use crate::math::{floor, solve_spd};
+use crate::math::{floor, solve_few};
 
 /// Residuals in grey values.
 pub(super) type Residuals = [f32; READINGS];
@@ -85,13 +85,14 @@ pub(super) fn explain(
     let mut best: Option<Explained> = None;
     for _ in 0..STEPS {
         let trial = Trial::at(profile, film, drawn, shift)?;
+        let step = trial.step(profile, drawn).clamp(-0.6, 0.6);
         if best
             .as_ref()
             .is_none_or(|best| trial.explained.squares() < best.squares())
         {
             best = Some(trial.explained);
         }
-        let next = (shift + trial.step.clamp(-0.6, 0.6)).clamp(-MOST_SHIFT, MOST_SHIFT);
+        let next = (shift + step).clamp(-MOST_SHIFT, MOST_SHIFT);
         if (next - shift).abs() < EXACT {
             break;
         }
@@ -134,18 +135,21 @@ fn read(drawn: &Drawn, outline: f64) -> Residuals {
     })
 }
 
-struct Trial {
+/// A shift tried, and what the fit of three numbers at it leaves behind for a better one.
+struct Trial<'t> {
     explained: Explained,
-    /// By how much the shift should grow.
-    step: f64,
+    film: &'t Developed,
+    columns: [[f64; 3]; READINGS],
+    /// The lower triangle of their products.
+    normal: [[f64; 3]; 3],
+    solution: [f64; 3],
 }
 
-impl Trial {
-    fn at(profile: &FilmProfile, film: &Developed, drawn: &Drawn, shift: f64) -> Option<Self> {
+impl<'t> Trial<'t> {
+    fn at(profile: &FilmProfile, film: &'t Developed, drawn: &Drawn, shift: f64) -> Option<Self> {
         let mut columns = [[0.0f64; 3]; READINGS];
         let (mut normal, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
-        let read = |more| read(drawn, f64::from(profile.outline) - shift + more);
-        let (passed, before, after) = (read(0.0), read(-NEAR), read(NEAR));
+        let passed = read(drawn, f64::from(profile.outline) - shift);
         for (k, column) in columns.iter_mut().enumerate() {
             let along = FilmProfile::along(k) - shift;
             let passed = f64::from(passed[k]);
@@ -161,38 +165,57 @@ impl Trial {
             }
         }
         // Where everything passes the three are alike.
-        (0..3).for_each(|k| normal[k][k] *= 1.0 + 1e-7);
-        let solution = solve_spd(normal, right)?;
+        let mut firm = normal;
+        (0..3).for_each(|k| firm[k][k] *= 1.0 + 1e-7);
+        let solution = solve_few(firm, right)?;
         if solution[1] <= 0.0 {
             return None;
         }
         let mut residuals = [0.0; READINGS];
+        for (k, residual) in residuals.iter_mut().enumerate() {
+            *residual = left(film, &columns[k], &solution, k) as f32;
+        }
+        Some(Self {
+            explained: Explained { residuals, shift },
+            film,
+            columns,
+            normal,
+            solution,
+        })
+    }
+
+    /// By how much the shift should grow.
+    fn step(&self, profile: &FilmProfile, drawn: &Drawn) -> f64 {
+        let (shift, solution) = (self.explained.shift, &self.solution);
+        let read = |more| read(drawn, f64::from(profile.outline) - shift + more);
+        let (before, after) = (read(-NEAR), read(NEAR));
         // The shift moves the profile against its slope; what the other three take up of that is left out.
-        let mut with_shift = [[0.0; 4]; 4];
-        let mut gains = [0.0; 4];
-        for (k, column) in columns.iter().enumerate() {
-            let model: f64 = column.iter().zip(&solution).map(|(a, b)| a * b).sum();
-            let weight = f64::from(film.weight[k]);
-            let residual = weight * f64::from(film.intensity[k]) - model;
-            residuals[k] = residual as f32;
+        let (mut last, mut gains) = ([0.0; 4], [0.0; 4]);
+        for (k, column) in self.columns.iter().enumerate() {
+            let residual = left(self.film, column, solution, k);
+            let weight = f64::from(self.film.weight[k]);
             let along = FilmProfile::along(k) - shift;
             let slope = f64::from(after[k] - before[k]) / (2.0 * NEAR);
             let slope = -weight * slope * (solution[1] + solution[2] * along / 6.0);
             let column = [column[0], column[1], column[2], slope];
-            for (row, &a) in column.iter().enumerate() {
-                gains[row] += a * residual;
-                for (sum, &b) in with_shift[row].iter_mut().zip(&column[..=row]) {
-                    *sum += a * b;
-                }
+            for (gain, &a) in gains.iter_mut().zip(&column) {
+                *gain += a * residual;
+            }
+            for (sum, &b) in last.iter_mut().zip(&column) {
+                *sum += slope * b;
             }
         }
+        let [a, b, c] = self.normal.map(|[x, y, z]| [x, y, z, 0.0]);
+        let mut with_shift = [a, b, c, last];
         (0..4).for_each(|k| with_shift[k][k] *= 1.0 + 1e-6);
-        let step = solve_spd(with_shift, gains).map_or(0.0, |solved| solved[3]);
-        Some(Self {
-            explained: Explained { residuals, shift },
-            step,
-        })
+        solve_few(with_shift, gains).map_or(0.0, |solved| solved[3])
     }
+}
+
+/// What a fit leaves of a reading, by its weight.
+fn left(film: &Developed, column: &[f64; 3], solution: &[f64; 3], reading: usize) -> f64 {
+    let model: f64 = column.iter().zip(solution).map(|(a, b)| a * b).sum();
+    f64::from(film.weight[reading]) * f64::from(film.intensity[reading]) - model
 }
 
 #[cfg(test)]

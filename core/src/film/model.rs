@@ -3,7 +3,7 @@
 use core::fmt;
 
 pub(crate) use super::drawn::Drawn;
-use super::drawn::convolved;
+use super::drawn::Gaussian;
 use super::lines::{INNER, POINTS, STEP};
 use super::sharpening::{MetalContrast, Sharpening};
 use crate::image::display::DisplayCurve;
@@ -102,7 +102,7 @@ impl FilmModel {
             blur_px,
             sharpening,
         } = self.constants;
-        let drawn = blurred(&transmission(paths, self.attenuation), blur_px);
+        let drawn = LineBlur::of(blur_px).blurred(&transmission(paths, self.attenuation));
         sharpening.of(&drawn, self.contrast.over_veil(curvature))
     }
 }
@@ -134,8 +134,6 @@ pub(crate) const MOST_BLUR_REACH: usize = 40;
 
 /// Weights of a Gaussian.
 pub(crate) struct Blur {
-    /// Standard deviation, places.
-    width: f32,
     /// At the places of a line from the middle to one side.
     pub(crate) weights: [f32; MOST_BLUR_REACH + 1],
     /// Places to each side that have any.
@@ -147,11 +145,10 @@ pub(crate) struct Blur {
 impl Blur {
     /// Of this width, pixels.
     pub(crate) fn of(blur_px: f64) -> Self {
-        let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
+        let (width, reach) = blur_places(blur_px);
         let mut blur = Self {
-            width,
             weights: [0.0; MOST_BLUR_REACH + 1],
-            reach: ((3.2 * width) as usize + 1).min(MOST_BLUR_REACH),
+            reach,
             sum: 0.0,
         };
         for (k, weight) in blur.weights.iter_mut().take(blur.reach + 1).enumerate() {
@@ -163,12 +160,28 @@ impl Blur {
     }
 }
 
-/// Convolved with a Gaussian of this width, pixels; both ends are continued.
-pub(crate) fn blurred(drawn: &Drawn, blur_px: f64) -> Drawn {
-    let Blur { width, reach, .. } = Blur::of(blur_px);
-    let mut blurred = convolved::<MOST_BLUR_REACH>(drawn, width, reach);
-    keep_level(drawn, reach, &mut blurred);
-    blurred
+/// Standard deviation of a blur, and how far to each side it reaches, places.
+fn blur_places(blur_px: f64) -> (f32, usize) {
+    let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
+    (width, ((3.2 * width) as usize + 1).min(MOST_BLUR_REACH))
+}
+
+/// A blur made ready for many lines.
+pub(super) struct LineBlur(Gaussian<MOST_BLUR_REACH>);
+
+impl LineBlur {
+    /// Of this width, pixels.
+    pub(super) fn of(blur_px: f64) -> Self {
+        let (width, reach) = blur_places(blur_px);
+        Self(Gaussian::of(width, reach))
+    }
+
+    /// A line with this blur; both ends are continued.
+    pub(super) fn blurred(&self, drawn: &Drawn) -> Drawn {
+        let mut blurred = self.0.convolved(drawn);
+        keep_level(drawn, self.0.reach(), &mut blurred);
+        blurred
+    }
 }
 
 /// Where nothing changes within a reach nothing is changed: outside of the part everything passes.
@@ -300,7 +313,8 @@ mod tests {
             for (from, value) in steps {
                 drawn[from..].fill(value);
             }
-            let (quick, naive) = (blurred(&drawn, blur_px), blurred_one_by_one(&drawn, blur_px));
+            let quick = LineBlur::of(blur_px).blurred(&drawn);
+            let naive = blurred_one_by_one(&drawn, blur_px);
             for (k, (a, b)) in quick.iter().zip(&naive).enumerate() {
                 prop_assert!((a - b).abs() < 1e-5, "{} {} {}", k, a, b);
             }
@@ -314,7 +328,7 @@ mod tests {
     fn blur_keeps_the_sum_and_has_the_width_asked_for() {
         let mut drawn = [1.0; POINTS];
         drawn[40] = 2.0;
-        let blurred = blurred(&drawn, 1.3);
+        let blurred = LineBlur::of(1.3).blurred(&drawn);
         let (mut sum, mut spread) = (0.0, 0.0);
         for (k, &x) in blurred.iter().enumerate() {
             let off = STEP * (k as f64 - 40.0);

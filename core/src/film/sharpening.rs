@@ -6,7 +6,7 @@
 //! `(1 + E / s) exp(amount (L - G L))` with `L = ln(1 + E / s)`: both are one formula, in which `1 / s` is 0 for a linear display.
 //! How much `s` is, the grey values beside metal and behind it tell.
 
-use super::drawn::{Drawn, convolved};
+use super::drawn::{Drawn, Gaussian};
 use super::lines::STEP;
 use crate::image::display::exp_quick;
 use crate::math::{exp, ln};
@@ -56,15 +56,38 @@ impl MetalContrast {
 impl Sharpening {
     /// A blurred profile as it seems, read through the display's curve, once its edge is enhanced.
     pub(super) fn of(&self, drawn: &Drawn, over_veil: f64) -> Drawn {
-        if self.amount == 0.0 {
-            return *drawn;
+        match UnsharpMask::of(self) {
+            Some(mask) => mask.on(drawn, over_veil),
+            None => *drawn,
         }
+    }
+}
+
+/// Enhanced edges made ready for many lines.
+pub(super) struct UnsharpMask {
+    amount: f64,
+    copy: Gaussian<REACH>,
+}
+
+impl UnsharpMask {
+    /// `None` where nothing is added.
+    pub(super) fn of(sharpening: &Sharpening) -> Option<Self> {
+        let [least, most] = RADII;
+        let width = sharpening.radius_px.clamp(least, most) / STEP;
+        (sharpening.amount != 0.0).then(|| Self {
+            amount: sharpening.amount,
+            copy: Gaussian::of(width as f32, (3.0 * width) as usize + 1),
+        })
+    }
+
+    /// A blurred profile as it seems, read through the display's curve, once its edge is enhanced.
+    pub(super) fn on(&self, drawn: &Drawn, over_veil: f64) -> Drawn {
         let is_linear = over_veil.abs() < LINEAR;
         let grey = match is_linear {
             true => *drawn,
             false => drawn.map(|x| (ln(1.0 + over_veil * f64::from(x)) / over_veil) as f32),
         };
-        let smooth = self.smoothed(&grey);
+        let smooth = self.copy.convolved(&grey);
         core::array::from_fn(|k| {
             let added = self.amount * f64::from(grey[k] - smooth[k]);
             let drawn = f64::from(drawn[k]);
@@ -76,12 +99,6 @@ impl Sharpening {
             };
             shown as f32
         })
-    }
-
-    fn smoothed(&self, grey: &Drawn) -> Drawn {
-        let [least, most] = RADII;
-        let width = self.radius_px.clamp(least, most) / STEP;
-        convolved::<REACH>(grey, width as f32, (3.0 * width) as usize + 1)
     }
 }
 

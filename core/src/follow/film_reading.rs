@@ -65,6 +65,19 @@ impl FilmReading {
         }
     }
 
+    /// Takes off what comes last of what is left, for another thread: nothing of it depends on the rest, and its frames come after those of
+    /// the rest. `None` where it is one way or one pose.
+    pub fn split(&mut self) -> Option<Self> {
+        let tasks = self.tasks.split_off(self.tasks.len().div_ceil(2));
+        (!tasks.is_empty()).then_some(Self {
+            middle: self.middle,
+            frames: self.frames,
+            component: self.component,
+            poses: self.poses,
+            tasks,
+        })
+    }
+
     /// The frame that is to be looked at; `None` where all is read.
     pub fn wanted(&mut self) -> Option<usize> {
         loop {
@@ -142,5 +155,24 @@ impl FilmReading {
         let count = film_profiles(model, camera, pose, image, names, memory, &mut read);
         read.truncate(count.unwrap_or(0));
         read
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_split_off_comes_after_the_rest() {
+        let mut reading = FilmReading::new([0.0; 3], 60, 0);
+        assert!(reading.split().is_none());
+        for frame in [7, 20, 50] {
+            reading.give(frame, Pose::IDENTITY);
+        }
+        let mut last = reading.split().expect("three poses");
+        let mut middle = reading.split().expect("two");
+        let wanted = [&mut reading, &mut middle, &mut last].map(FilmReading::wanted);
+        assert_eq!(wanted, [Some(7), Some(20), Some(50)]);
+        assert!(last.split().is_none());
     }
 }

@@ -21,7 +21,7 @@ pub use build::{Built, build_library, build_views};
 pub use clicker::{Clicked, Clicker, Neighbour};
 pub use film::{FrameFound, find_poses, first_poses};
 pub use film_model::{Filmed, KnownFilm, Stated, bring_onto_frames};
-pub use finder::{EdgeOptions, Finder, Method};
+pub use finder::{EdgeOptions, Finder, Method, image};
 pub use mask_offset::offset_words;
 pub use refiner::Refiner;
 pub use tools::{threshold_outline, wire_outline};

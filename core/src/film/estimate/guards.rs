@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::solver::{Fit, UNEXPLAINED};
+use super::solver::{Drawings, Fit, UNEXPLAINED};
 use super::unknowns::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, UNKNOWNS, Vector};
 use crate::film::profile::FilmProfile;
 
@@ -55,9 +55,10 @@ impl Fit<'_> {
     fn cost_of(&self, frame: u16, component: u8, at: &Vector) -> f64 {
         let wanted =
             |profile: &&FilmProfile| profile.frame == frame && profile.component == component;
+        let drawings = Drawings::alone(self, at);
         let (mut sum, mut count) = (0.0, 0.0f64);
         for profile in self.profiles.iter().filter(wanted) {
-            let squares = self.explained(profile, at, false);
+            let squares = self.explained(profile, &drawings);
             sum += squares.map_or(UNEXPLAINED, |(explained, _)| self.cost(explained.squares()));
             count += 1.0;
         }

@@ -83,10 +83,11 @@ impl Fit<'_> {
     pub(super) fn metal(&self, component: usize, at: &Vector) -> MetalContrast {
         let is_of =
             |profile: &&FilmProfile| profile.used && usize::from(profile.component) == component;
+        let drawing = self.drawing(at);
         let (mut grey, mut passed, mut count) = (0.0, 0.0, 0.0);
         for profile in self.profiles.iter().filter(is_of) {
             grey += f64::from(profile.contrast());
-            passed += f64::from(profile.inside(&self.before_sharpening(profile, at)));
+            passed += f64::from(profile.inside(&drawing.before_sharpening(profile)));
             count += 1.0;
         }
         match count > 0.0 {

@@ -2,16 +2,18 @@
 
 use heapless::Vec;
 
+use super::drawing::Drawing;
 use super::equations::{Sums, product};
 use super::unknowns::{
-    AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, OF_A_PROFILE, RADIUS, UNKNOWNS, Vector,
+    AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, MOST_COMPONENTS, OF_A_PROFILE, RADIUS, UNKNOWNS,
+    Vector,
 };
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::given::GivenFilm;
-use crate::film::model::{Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
+use crate::film::model::{LEAST_BLUR, MOST_BLUR};
 use crate::film::profile::{FilmProfile, READINGS};
-use crate::film::sharpening::{MOST_AMOUNT, MetalContrast, RADII, Sharpening};
-use crate::math::{exp, ln, solve_spd};
+use crate::film::sharpening::{MOST_AMOUNT, RADII};
+use crate::math::{ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.
 const STARTS: [f64; 8] = [-0.3, 0.3, 0.9, 1.5, 2.2, 3.0, 4.0, 5.5];
@@ -33,14 +35,6 @@ pub(super) const UNEXPLAINED: f64 = 4.6;
 pub(super) const FEW: usize = 320;
 /// Consecutive profiles that err alike.
 const TOGETHER: usize = 8;
-
-/// How edges are enhanced.
-pub(super) fn sharpening(at: &Vector) -> Sharpening {
-    Sharpening {
-        amount: at[AMOUNT],
-        radius_px: exp(at[RADIUS]),
-    }
-}
 
 fn ln_of_blur(blur_px: f64) -> f64 {
     ln(blur_px.clamp(LEAST_BLUR, MOST_BLUR))
@@ -114,22 +108,9 @@ impl Fit<'_> {
         Some(at)
     }
 
-    fn drawn(&self, profile: &FilmProfile, at: &Vector) -> Drawn {
-        let drawn = self.before_sharpening(profile, at);
-        if !self.sharpened {
-            return drawn;
-        }
-        let contrast = MetalContrast {
-            grey: f64::from(profile.contrast()),
-            passed: f64::from(profile.inside(&drawn)),
-        };
-        sharpening(at).of(&drawn, contrast.over_veil(at[CURVATURE] / self.contrast))
-    }
-
-    /// What a profile is drawn as, but for enhanced edges.
-    pub(super) fn before_sharpening(&self, profile: &FilmProfile, at: &Vector) -> Drawn {
-        let passed = transmission(&profile.paths, exp(at[2 + usize::from(profile.component)]));
-        blurred(&passed, exp(at[BLUR]))
+    /// What constants make of profiles.
+    pub(super) fn drawing(&self, at: &Vector) -> Drawing {
+        Drawing::of(at, self.contrast, self.sharpened)
     }
 
     /// The unknowns that a profile depends on.
@@ -154,11 +135,12 @@ impl Fit<'_> {
 
     /// Looks for the shift of every profile.
     pub(super) fn find_shifts(&mut self, at: &Vector) {
+        let drawing = self.drawing(at);
         for number in 0..self.profiles.len() {
             let profile = &self.profiles[number];
             if self.is_wanted(number, profile) {
-                let film = Developed::of(profile, at[CURVATURE] / self.contrast);
-                let found = search(profile, &film, &self.drawn(profile, at));
+                let film = Developed::of(profile, drawing.curvature);
+                let found = search(profile, &film, &drawing.of_profile(profile));
                 self.profiles[number].shift = found.map_or(0.0, |found| found.shift as f32);
             }
         }
@@ -209,13 +191,14 @@ impl Fit<'_> {
             squares: 0.0,
             count: 0,
         };
+        let drawings = Drawings::of(self, at);
         let (mut group, mut in_group) = ([0.0; UNKNOWNS], 0);
         for number in 0..self.profiles.len() {
             let profile = &self.profiles[number];
             if !self.is_wanted(number, profile) {
                 continue;
             }
-            let Some((explained, slopes)) = self.explained(profile, at, true) else {
+            let Some((explained, slopes)) = self.explained(profile, &drawings) else {
                 sums.cost += UNEXPLAINED;
                 continue;
             };
@@ -273,37 +256,74 @@ impl Fit<'_> {
         }
     }
 
-    /// A profile explained, and, where it is `wanted`, how its residuals change with each unknown that it depends on and that is not held.
+    /// A profile explained, and how its residuals change with each unknown that it depends on and of which drawings have a change.
     pub(super) fn explained(
         &self,
         profile: &FilmProfile,
-        at: &Vector,
-        wanted: bool,
+        drawings: &Drawings,
     ) -> Option<(Explained, [Residuals; OF_A_PROFILE])> {
-        let film = Developed::of(profile, at[CURVATURE] / self.contrast);
+        let own = &drawings.own;
+        let film = Developed::of(profile, own.curvature);
         let start = f64::from(profile.shift);
-        let explained = explain(profile, &film, &self.drawn(profile, at), start)?;
+        let before = own.before_sharpening(profile);
+        let drawn = own.enhanced(profile, before);
+        let explained = explain(profile, &film, &drawn, start)?;
         let mut slopes = [[0.0; READINGS]; OF_A_PROFILE];
-        if wanted {
-            for (slopes, number) in slopes.iter_mut().zip(self.of_profile(profile)) {
-                if self.is_held(number) {
-                    continue;
+        for (slopes, number) in slopes.iter_mut().zip(self.of_profile(profile)) {
+            let Some(near) = &drawings.near[number] else {
+                continue;
+            };
+            let other = match number {
+                CURVATURE => {
+                    let film = Developed::of(profile, near.curvature);
+                    let drawn = near.enhanced(profile, before);
+                    explain(profile, &film, &drawn, explained.shift)?
                 }
-                let mut near = *at;
-                near[number] += CHANGE;
-                let drawn = self.drawn(profile, &near);
-                let other = match number {
-                    CURVATURE => {
-                        let film = Developed::of(profile, near[CURVATURE] / self.contrast);
-                        explain(profile, &film, &drawn, explained.shift)?
-                    }
-                    _ => explain(profile, &film, &drawn, explained.shift)?,
-                };
-                for (k, slope) in slopes.iter_mut().enumerate() {
-                    *slope = (other.residuals[k] - explained.residuals[k]) / CHANGE as f32;
+                AMOUNT | RADIUS => {
+                    let drawn = near.enhanced(profile, before);
+                    explain(profile, &film, &drawn, explained.shift)?
                 }
+                _ => {
+                    let drawn = near.of_profile(profile);
+                    explain(profile, &film, &drawn, explained.shift)?
+                }
+            };
+            for (k, slope) in slopes.iter_mut().enumerate() {
+                *slope = (other.residuals[k] - explained.residuals[k]) / CHANGE as f32;
             }
         }
         Some((explained, slopes))
+    }
+}
+
+/// What some constants make of profiles, and what those make of them in which one is changed a little: none of one that is held.
+pub(super) struct Drawings {
+    own: Drawing,
+    near: [Option<Drawing>; UNKNOWNS],
+}
+
+impl Drawings {
+    fn of(fit: &Fit<'_>, at: &Vector) -> Self {
+        let of_components = 2 + fit.components..2 + MOST_COMPONENTS;
+        let near = |number| {
+            if fit.is_held(number) || of_components.contains(&number) {
+                return None;
+            }
+            let mut near = *at;
+            near[number] += CHANGE;
+            Some(fit.drawing(&near))
+        };
+        Self {
+            own: fit.drawing(at),
+            near: core::array::from_fn(near),
+        }
+    }
+
+    /// Without changes.
+    pub(super) fn alone(fit: &Fit<'_>, at: &Vector) -> Self {
+        Self {
+            own: fit.drawing(at),
+            near: [const { None }; UNKNOWNS],
+        }
     }
 }

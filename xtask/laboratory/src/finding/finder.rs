@@ -61,7 +61,7 @@ pub struct EdgeOptions {
 ///
 /// # Errors
 /// Where there is no frame.
-pub(super) fn image<'a>(
+pub fn image<'a>(
     seen: &Seen<'a>,
     edges: EdgeOptions,
     film: Option<FilmModel>,

@@ -5,13 +5,17 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::canonical::canonicalise;
+use fluoropose::film::pool::profiles_of_each;
+use fluoropose::film::{FilmPool, FilmProfile, GivenFilm};
+use fluoropose::finder::onto_target;
 use fluoropose::library::Library;
 use fluoropose::mesh::Model;
+use fluoropose::refine::{RefineBuffers, RefineOptions, film_profiles};
 
 use super::native::SearchBuffers;
 use super::row::{Row, median, timed};
 use crate::files::{Study, owned, read_calibration, read_model};
-use crate::finding::{Built, EdgeOptions, Finder, Method, ViewOptions, build_library};
+use crate::finding::{Built, EdgeOptions, Finder, Method, ViewOptions, build_library, image};
 use crate::progress::announce;
 use crate::sequence::{Folders, Sequence, Source};
 use fluoropose_phantom::implant::{self, Parameters};
@@ -79,6 +83,11 @@ fn component(studies: &Path, (study, name, masks): (&str, &str, &str)) -> Result
         let work = format!("{what}, {masks} mask: {}, verdict included", method.word());
         rows.push(Row::new(&work, frames(finder, &sequence)?, "none", None));
     }
+    let finder = Finder::open(&built.bytes, model, sequence.camera(), Method::Refined)?;
+    if let Some(ms) = on_known_film(finder, model, &sequence)? {
+        let work = format!("{what}, {masks} mask: image where the film is known, verdict included");
+        rows.push(Row::new(&work, ms, "none", None));
+    }
     rows.push(exact(&what, &built, &sequence)?);
     Ok(rows)
 }
@@ -92,6 +101,58 @@ fn frames(mut finder: Finder<'_>, sequence: &Sequence<'_>) -> Result<f64> {
         times.push(sequence.look(frame, |seen| Ok(timed(|| finder.all(seen)).0))?);
     }
     Ok(median(times))
+}
+
+/// Milliseconds that a frame takes from its mask to poses where the film of the sequence puts edges: what `evaluate` does of each frame once
+/// it has the film's constants. `None` where the frames do not tell these.
+fn on_known_film(
+    mut finder: Finder<'_>,
+    model: Model<'_>,
+    sequence: &Sequence<'_>,
+) -> Result<Option<f64>> {
+    let (camera, count) = (sequence.camera(), sequence.masks().len());
+    let frames = FRAMES.min(count);
+    let mut buffers = RefineBuffers::default();
+    let mut pool = FilmPool::default();
+    let frame_of = |at: usize| at * count / frames;
+    for frame in (0..frames).map(frame_of) {
+        let read = sequence.look(frame, |seen| {
+            let mut read = vec![FilmProfile::default(); profiles_of_each(frames)];
+            let found = finder.all(seen)?;
+            let pose = found.candidates.first().context("no pose")?.pose;
+            let (target, names) = (
+                image(seen, EdgeOptions::default(), None)?,
+                (0, frame as u16),
+            );
+            let memory = &mut buffers.borrow(&model, &camera);
+            let count = film_profiles(&model, &camera, &pose, &target, names, memory, &mut read)?;
+            read.truncate(count);
+            Ok(read)
+        })?;
+        pool.take(0, frame as u16, read);
+    }
+    let Some(film) = pool
+        .estimate(GivenFilm::default())
+        .map(|film| film.model(0))
+    else {
+        return Ok(None);
+    };
+    let mut times = Vec::new();
+    for at in (0..ROUNDS).flat_map(|_| 0..frames) {
+        times.push(sequence.look(frame_of(at), |seen| {
+            let target = image(seen, EdgeOptions::default(), Some(film))?;
+            let memory = &mut buffers.borrow(&model, &camera);
+            let options = RefineOptions::default();
+            let (ms, found) = timed(|| -> Result<_> {
+                let found = finder.all(seen)?.candidates;
+                Ok(onto_target(
+                    &model, &camera, target, &found, options, memory,
+                )?)
+            });
+            found.map(|_| ms)
+        })?);
+    }
+    Ok(Some(median(times)))
 }
 
 /// A library of all directions, on all cores.

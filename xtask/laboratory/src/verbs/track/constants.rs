@@ -67,8 +67,23 @@ fn profiles(
     for anchor in anchors {
         reading.give(anchor.frame, anchor.found.pose);
     }
-    let mut read = Vec::new();
+    read(run, part, reading)
+}
+
+/// All that a reading asks for, in its order: the ways to both sides of a pose side by side.
+fn read(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    mut reading: FilmReading,
+) -> Result<Vec<(usize, Vec<FilmProfile>)>> {
+    let mut done = Vec::new();
     while let Some(frame) = reading.wanted() {
+        if let Some(rest) = reading.split() {
+            let (own, rest) = rayon::join(|| read(run, part, reading), || read(run, part, rest));
+            done.extend(own?);
+            done.extend(rest?);
+            break;
+        }
         run.request.stop.check()?;
         let name = part.name();
         run.say(format!(
@@ -78,7 +93,7 @@ fn profiles(
         let profiles = part.see(run.film, frame, |subject, image, memory| {
             reading.take(subject, image, memory)
         })?;
-        read.push((frame, profiles));
+        done.push((frame, profiles));
     }
-    Ok(read)
+    Ok(done)
 }
