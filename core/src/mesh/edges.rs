@@ -16,7 +16,7 @@ mod tighten;
 
 pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
-pub use edge::{MeshEdge, RimEdge};
+pub use edge::{MeshEdge, PackedEdge, RimEdge};
 #[cfg(feature = "alloc")]
 pub(super) use link::turn;
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
@@ -24,6 +24,6 @@ pub use list::Edges;
 pub(crate) use measured::Facing;
 pub use pack::{PackMemory, PackedNeeds, pack_edges, packed_needed};
 pub(crate) use packed::unpacked;
-pub use packed::{PackedBox, PackedEdge, PackedEdges, PackedRim};
+pub use packed::{PackedBox, PackedEdges, PackedRim};
 #[cfg(any(feature = "alloc", test))]
 pub use tighten::tightened;

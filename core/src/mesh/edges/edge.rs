@@ -37,3 +37,6 @@ pub struct RimEdge {
     /// Third vertex of its triangle, which runs `from` -> `to`.
     pub(crate) third: u32,
 }
+
+/// An edge as vertices: from, to, and the third ones of the triangles that run it forth and back.
+pub type PackedEdge = [u16; 4];

@@ -1,7 +1,8 @@
 //! Packing the edges of a surface.
 
+use super::edge::PackedEdge;
 use super::list::Edges;
-use super::packed::{PackedBox, PackedEdge, PackedEdges, PackedRim};
+use super::packed::{PackedBox, PackedEdges, PackedRim};
 use crate::memory::{TooLittleMemory, first};
 
 /// Memory of [`pack_edges`].

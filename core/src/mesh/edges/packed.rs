@@ -4,13 +4,11 @@
 //! tell that none of its edges is on the contour.
 
 use super::boxes::{EdgeBox, IN_BOX};
-use super::edge::{MeshEdge, RimEdge};
+use super::edge::{MeshEdge, PackedEdge, RimEdge};
 use super::tight::{GroupRoom, TightGroups};
 
 /// A box as numbers: middle and reach of its triangles' duals, greatest reciprocals of a height and of a doubled area.
 pub type PackedBox = [f32; 10];
-/// An edge as vertices: from, to, and the third ones of the triangles that run it forth and back.
-pub type PackedEdge = [u16; 4];
 /// A rim as vertices: from, to, and the third one of its triangle.
 pub type PackedRim = [u16; 3];
 

@@ -11,7 +11,7 @@
 //! - its vertices, rising: by how much each is more than the one before it, the first more than -1: a byte, or a zero and then two.
 
 use super::boxes::{Halves, IN_BOX};
-use super::packed::PackedEdge;
+use super::edge::PackedEdge;
 
 /// Vertices of the edges in one box at most, and at least.
 pub(super) const MOST_VERTICES: usize = 4 * IN_BOX;

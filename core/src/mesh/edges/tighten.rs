@@ -4,7 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::boxes::{EdgeBox, IN_BOX};
-use super::packed::{PackedBox, PackedEdge};
+use super::edge::PackedEdge;
+use super::packed::PackedBox;
 use super::tight::bits_for;
 
 /// The stream of bytes of the edges in some boxes: [`super::PackedEdges::tight`] reads it.
