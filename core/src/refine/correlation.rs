@@ -92,7 +92,7 @@ impl Correlation {
         let mut bins = raw.map(|value| value + taken);
         let compared = bins.iter().take(distances.bins() + 1);
         let positive = compared.take_while(|&&value| value > 0.0).count();
-        bins[positive..].fill(0.0);
+        bins.iter_mut().skip(positive).for_each(|bin| *bin = 0.0);
         Self {
             bins,
             distances: distances.of_first(positive.saturating_sub(1)),

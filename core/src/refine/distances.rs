@@ -127,7 +127,7 @@ impl Distances {
 /// of the frame as many times, and its samples are listed row by row.
 fn is_one(number: usize, of: u32) -> bool {
     const GOLDEN: u32 = 0x9e37_79b9;
-    (number as u32).wrapping_mul(GOLDEN) <= u32::MAX / of
+    (number as u32).wrapping_mul(GOLDEN) <= u32::MAX / of.max(1)
 }
 
 /// Whether the cosine between two normals is at least one half: the two sides of a thin plate err apart. In whole numbers, because
