@@ -31,9 +31,12 @@ export class Stage {
   /** Where the mouse is on the frame, as the status line says it to a tenth of a pixel. @returns {Promise<Point>} */
   async readout() {
     await drawn(this.page);
-    const text = await this.page.getByRole('contentinfo', { name: 'Status' }).innerText();
-    const found = /(-?\d+\.\d), (-?\d+\.\d) px/.exec(text);
-    assert(found, `the status line does not say where the mouse is: ${text}`);
+    const status = this.page.getByRole('contentinfo', { name: 'Status' });
+    const place = /(-?\d+\.\d), (-?\d+\.\d) px/;
+    // A page that has just come back says first that it has.
+    const text = await until(() => status.innerText(), (words) => place.test(words), 'the status line to say where the mouse is');
+    const found = place.exec(text);
+    assert(found);
     return [Number(found[1]), Number(found[2])];
   }
 
