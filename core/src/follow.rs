@@ -24,6 +24,7 @@ mod conclusion;
 mod contrast;
 #[cfg(feature = "alloc")]
 mod crossing;
+mod distrust;
 mod elsewhere;
 #[cfg(test)]
 mod fake;
@@ -69,6 +70,7 @@ pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
 #[cfg(feature = "alloc")]
 pub use crossing::{Crossing, frames_to_cross_from};
+pub use distrust::Distrust;
 pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
 pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
@@ -108,5 +110,5 @@ pub use sides::{Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};
-pub use trust::{Distrust, FrameEvidence, Trust, TrustLimits, judge_film};
+pub use trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 pub use way::Way;

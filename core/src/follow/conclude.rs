@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 
 use super::cell::Cell;
 use super::conclusion::{Conclusion, fill_gaps};
+use super::distrust::Distrust;
 use super::known_femur::KnownFemur;
 use super::side_margin::SideMargin;
-use super::trust::{Distrust, FrameEvidence, Trust, TrustLimits, judge_film};
+use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::joint::beside::Beside;
 use crate::math::Vector3;
 use crate::mesh::anatomy::KneeComponent;

@@ -3,11 +3,12 @@
 use core::fmt;
 
 use super::cell::Cell;
+use super::distrust::Distrust;
 use super::look::Missing;
 use super::motion::between;
 use super::side_margin::SideMargin;
 use super::state::State;
-use super::trust::{Distrust, FrameEvidence, Trust};
+use super::trust::{FrameEvidence, Trust};
 use crate::math::Vector3;
 use crate::pose::Pose;
 

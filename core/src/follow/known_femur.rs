@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::conclusion::Conclusion;
-use super::trust::Distrust;
+use super::distrust::Distrust;
 use crate::finder::choice::Counterpart;
 use crate::joint::impossible::impossible_pose;
 use crate::joint::kinematics::relative_pose;

@@ -1,0 +1,135 @@
+//! Why a pose of a film is to be looked at, in one word and in a sentence.
+
+use core::fmt;
+
+use super::sides::Rival;
+use crate::joint::beside::Beside;
+use crate::joint::impossible::Impossible;
+use crate::mesh::anatomy::KneeComponent;
+
+/// Why a pose is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Distrust {
+    /// Another pose is as likely.
+    Side(Rival),
+    /// The ways from both ends lead to different poses: degrees.
+    Ways(f64),
+    /// It lies off the way between the frames on both sides: degrees, mm.
+    Jump(f64, f64),
+    /// The frames beside it, one at the end of a film, may be another pose's themselves, so that it says little that they agree.
+    Beside,
+    /// The edges are fainter than elsewhere in the film: part of the usual strength.
+    Faint(f64),
+    /// The edges lie farther off than elsewhere: pixels, and the usual.
+    Apart(f64, f64),
+    /// Only this part of the outline is met by edges.
+    Unmet(f64),
+    /// Only this part of the outline is in the frame.
+    Cut(f64),
+    /// The outline does not determine the pose: standard deviation of the rotation, degrees.
+    Undetermined(f64),
+    /// Both components cannot lie so far apart along the view: mm against what is usual in the film.
+    Depths(f64),
+    /// The same against what a joint allows.
+    Joint(f64),
+    /// It lies so far behind the detector, mm.
+    Behind(f64),
+    /// The model has the shape of this component, which is the other one.
+    Shape(KneeComponent),
+    /// Its joint with the femur would do this, which no knee does.
+    Knee(Impossible),
+    /// The other component lies beside it as in no knee: the picture may be mirrored.
+    Mirrored(Beside),
+}
+
+impl Distrust {
+    /// The word for it in tables.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Side(_) => "ambiguous",
+            Self::Ways(_) => "two ways",
+            Self::Jump(..) => "jump",
+            Self::Beside => "beside doubt",
+            Self::Faint(_) => "faint",
+            Self::Apart(..) | Self::Unmet(_) => "residual",
+            Self::Cut(_) => "cut off",
+            Self::Undetermined(_) => "undetermined",
+            Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
+            Self::Shape(_) => "shape",
+            Self::Knee(_) | Self::Mirrored(_) => "joint",
+        }
+    }
+}
+
+impl fmt::Display for Distrust {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Side(Rival::Mirrored) => f.write_str("its mirror image is as likely"),
+            Self::Side(Rival::Elsewhere) => {
+                f.write_str("a pose some degrees beside it, which is no mirror image, is as likely")
+            }
+            Self::Ways(deg) => write!(
+                f,
+                "the ways from both ends of the film come to poses {deg:.1} degrees apart"
+            ),
+            Self::Jump(deg, mm) => write!(
+                f,
+                "it lies {deg:.1} degrees and {mm:.1} mm off the way between the frames beside it"
+            ),
+            Self::Beside => f.write_str(
+                "the frames beside it are doubtful themselves, so that it says little that they agree",
+            ),
+            Self::Faint(part) => {
+                let percent = 100.0 * part;
+                write!(
+                    f,
+                    "its edges have {percent:.0} % of the strength that is usual in this film"
+                )
+            }
+            Self::Apart(px, usual_px) => write!(
+                f,
+                "the edges lie {px:.2} px off the outline, where {usual_px:.2} px is usual in this film"
+            ),
+            Self::Unmet(part) => {
+                let percent = 100.0 * part;
+                write!(f, "only {percent:.0} % of the outline is met by edges")
+            }
+            Self::Cut(part) => {
+                let percent = 100.0 * part;
+                write!(
+                    f,
+                    "only {percent:.0} % of the outline is in the frame and not hidden"
+                )
+            }
+            Self::Undetermined(deg) => write!(
+                f,
+                "the outline leaves {deg:.1} degrees of the rotation open (standard deviation)"
+            ),
+            Self::Depths(mm) => write!(
+                f,
+                "it lies {mm:.0} mm farther from the other component along the view than is usual in this film"
+            ),
+            Self::Joint(mm) => write!(
+                f,
+                "it lies {mm:.0} mm behind the other component along the view, which no joint does"
+            ),
+            Self::Behind(mm) => write!(
+                f,
+                "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
+            ),
+            Self::Knee(what) => what.fmt(f),
+            Self::Mirrored(beside) => beside.fmt(f),
+            Self::Shape(shape) => {
+                let is = match shape {
+                    KneeComponent::Femur => "femoral component",
+                    KneeComponent::Tibia => "tibial tray",
+                };
+                write!(
+                    f,
+                    "its model has the shape of a {is}, were the models swapped?"
+                )
+            }
+        }
+    }
+}
