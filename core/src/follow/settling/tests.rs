@@ -1,0 +1,186 @@
+//! The order of settling, with made-up frames.
+
+use super::*;
+use crate::follow::fake::{looked, turned};
+use crate::pose::geodesic_deg;
+
+const FRAMES: usize = 9;
+
+fn film() -> Vec<Cell> {
+    let seen = |frame: usize| Cell::on_the_way(looked(Ok(turned(frame as f64, 0.2))));
+    (0..FRAMES).map(seen).collect()
+}
+
+/// The words of the steps, with a film in which every other pose leaves so many times as much.
+fn order(times: f64) -> Vec<&'static str> {
+    let mut cells = film();
+    let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+    let mut words = Vec::new();
+    while let Some(step) = settling.next(&mut cells) {
+        words.push(match step {
+            SettlingStep::Cross(_) => "cross",
+            SettlingStep::See(rival, frames) => {
+                for frame in frames {
+                    let own = *cells[frame].found().expect("it was seen");
+                    settling.saw(SideSample {
+                        frame,
+                        own,
+                        rival,
+                        other: Some(turned(frame as f64 + 20.0, times * own.misfit_px)),
+                        fixed: false,
+                    });
+                }
+                match rival {
+                    Rival::Mirrored => "sides",
+                    Rival::Elsewhere => "elsewhere",
+                }
+            }
+            SettlingStep::Choose => {
+                settling.choose(None);
+                "choose"
+            }
+            SettlingStep::GoOver(runs) => {
+                for (run, anchor) in runs {
+                    let there = turned(anchor.frame as f64 + 20.0, 0.0).pose;
+                    let off = geodesic_deg(&there.rotation, &anchor.found.pose.rotation);
+                    assert!(off < 1e-6, "{off}");
+                    for frame in run {
+                        assert!(cells[frame].found().is_none(), "it is cleared");
+                        let found = turned(frame as f64 + 20.0, times * 0.2);
+                        cells[frame] = Cell::on_the_way(looked(Ok(found)));
+                    }
+                }
+                "go over"
+            }
+            SettlingStep::LookAgain(_) => "again",
+        });
+        assert!(words.len() < 40, "it ends: {words:?}");
+    }
+    words
+}
+
+/// A way on the other side that leads back.
+#[test]
+fn frames_stay_on_the_side_that_was_chosen() {
+    let mut cells = film();
+    let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+    let SettlingStep::See(..) = settling.next(&mut cells).expect("sides") else {
+        panic!("both sides are seen first");
+    };
+    let other = |frame: usize| turned(frame as f64 + 20.0, 0.05);
+    for (frame, cell) in cells.iter().enumerate() {
+        settling.saw(SideSample {
+            frame,
+            own: *cell.found().expect("it was seen"),
+            rival: Rival::Mirrored,
+            other: Some(other(frame)),
+            fixed: false,
+        });
+    }
+    settling.next(&mut cells);
+    settling.choose(None);
+    settling.next(&mut cells);
+    cells = film();
+    for cell in &mut cells[..4] {
+        *cell = Cell::default();
+    }
+    settling.next(&mut cells);
+    assert!(cells[..4].iter().all(|cell| cell.found().is_none()));
+    for (frame, cell) in cells.iter().enumerate().skip(4) {
+        assert_eq!(cell.found(), Some(&other(frame)));
+    }
+}
+
+/// Seen are frames 2, 6, 10 and so on; then the way comes to another pose in frame 12.
+#[test]
+fn a_way_that_rocks_after_sides_were_chosen_is_seen_from_both_sides_there() {
+    let mut cells: Vec<Cell> = (0..24)
+        .map(|_| Cell::on_the_way(looked(Ok(turned(0.0, 0.2)))))
+        .collect();
+    let mut settling = Settling::new([0.0; 3], 0..24);
+    let see = |settling: &mut Settling, cells: &mut [Cell]| {
+        let Some(SettlingStep::See(Rival::Mirrored, frames)) = settling.next(cells) else {
+            return Vec::new();
+        };
+        for &frame in &frames {
+            let own = *cells[frame].found().expect("it was seen");
+            let (rival, other) = (Rival::Mirrored, Some(turned(7.0, 0.4)));
+            settling.saw(SideSample {
+                frame,
+                own,
+                rival,
+                other,
+                fixed: false,
+            });
+        }
+        frames
+    };
+    assert_eq!(see(&mut settling, &mut cells), [2, 6, 10, 14, 18, 22]);
+    settling.next(&mut cells);
+    settling.choose(None);
+    cells[12] = Cell::on_the_way(looked(Ok(turned(6.0, 0.2))));
+    assert_eq!(see(&mut settling, &mut cells), [11, 12, 13]);
+    settling.next(&mut cells);
+    settling.choose(None);
+    assert_eq!(see(&mut settling, &mut cells), [], "each is seen once");
+}
+
+/// A frame that leaves more than the others, and less where they lead.
+#[test]
+fn what_was_mended_is_seen_from_all_sides_again() {
+    let words = |is_mended: bool| {
+        let mut cells = film();
+        cells[4] = Cell::on_the_way(looked(Ok(turned(4.0, 0.8))));
+        let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+        let mut words = Vec::new();
+        while let Some(step) = settling.next(&mut cells) {
+            match step {
+                SettlingStep::See(rival, frames) => {
+                    if rival == Rival::Mirrored {
+                        words.push("sides");
+                    }
+                    for frame in frames {
+                        let own = *cells[frame].found().expect("it was seen");
+                        let (other, fixed) = (None, false);
+                        settling.saw(SideSample {
+                            frame,
+                            own,
+                            rival,
+                            other,
+                            fixed,
+                        });
+                    }
+                }
+                SettlingStep::LookAgain(looks) => {
+                    assert_eq!(looks.len(), 1);
+                    words.push("again");
+                    if is_mended {
+                        cells[4].improve(turned(4.0, 0.2));
+                    }
+                }
+                SettlingStep::Choose => settling.choose(None),
+                _ => {}
+            }
+        }
+        words
+    };
+    assert_eq!(words(true), ["sides", "again", "sides"]);
+    assert_eq!(words(false), ["sides", "again"]);
+}
+
+#[test]
+fn what_is_right_is_seen_from_both_sides_and_from_elsewhere_once() {
+    assert_eq!(order(5.0), ["sides", "choose", "elsewhere"]);
+}
+
+#[test]
+fn what_leaves_less_is_gone_over_to_and_seen_anew() {
+    let words = order(0.2);
+    assert_eq!(
+        words[..4],
+        ["sides", "choose", "go over", "elsewhere"],
+        "{words:?}"
+    );
+    let rounds = words.iter().filter(|&&word| word == "sides").count();
+    assert!(rounds <= 1 + ROUNDS, "{words:?}");
+}
