@@ -64,7 +64,7 @@ impl SideSample {
             apart_deg: other.map_or(180.0, apart),
             rival: self.rival,
             went_over: false,
-            is_told: 1.0,
+            sure: 1.0,
             goes_on: [false; 2],
             turn_deg: 0.0,
         }
@@ -87,8 +87,8 @@ impl SideSample {
         };
         let told = |[stayed, crossed]: [f64; 2]| {
             let nearer = stayed.min(crossed) / stayed.max(crossed).max(f64::MIN_POSITIVE);
-            let is_told = ((1.0 - nearer) / (1.0 - CROSSED)).min(1.0);
-            (crossed < stayed, is_told)
+            let sure = ((1.0 - nearer) / (1.0 - CROSSED)).min(1.0);
+            (crossed < stayed, sure)
         };
         let by_all = told(ways(&|a, b| geodesic_deg(&a.rotation, &b.rotation)));
         match by_all.1 < 1.0 {
@@ -184,11 +184,11 @@ pub(super) fn evidence_of(
     let befores = core::iter::once(None).chain(samples.iter().map(Some));
     let each = samples.iter().zip(befores);
     let evidence = each.map(|(sample, before)| {
-        let (went_over, is_told) =
+        let (went_over, sure) =
             before.map_or((false, 1.0), |before| sample.went_over_since(before));
         SideEvidence {
             went_over,
-            is_told,
+            sure,
             goes_on: before.map_or([false; 2], |before| sample.goes_on_from(before)),
             turn_deg: before.map_or(0.0, |before| {
                 out_of_plane_deg(&before.own.pose, &sample.own.pose)

@@ -42,7 +42,7 @@ pub struct SideEvidence {
     /// other pose here.
     pub went_over: bool,
     /// How sure that is, or that it has not, 0 to 1.
-    pub is_told: f64,
+    pub sure: f64,
     /// Of a pose elsewhere: whether it goes on from the trail of the frame before, and whether the trail goes on from what was elsewhere
     /// there, rather than the trail from itself.
     pub goes_on: [bool; 2],
@@ -163,7 +163,7 @@ impl SideEvidence {
         let [meeting, apart] = GO_OVER;
         let over = match self.meet() || next.meet() {
             true => meeting,
-            false => meeting + next.is_told * (apart - meeting),
+            false => meeting + next.sure * (apart - meeting),
         };
         let [leaves, comes] = next.goes_on.map(|goes_on| if goes_on { 0.0 } else { over });
         let jump = match next.goes_on.contains(&true) {
@@ -245,7 +245,7 @@ mod tests {
             apart_deg,
             rival: Rival::Mirrored,
             went_over: false,
-            is_told: 1.0,
+            sure: 1.0,
             goes_on: [false; 2],
             turn_deg: 0.0,
         }
@@ -336,17 +336,17 @@ mod tests {
     /// Of a pose that is on neither side nobody can say which is the trail's.
     #[test]
     fn frames_whose_sides_are_not_told_apart_are_not_bound_to_each_other() {
-        let film = |is_told: f64| -> Vec<SideEvidence> {
+        let film = |sure: f64| -> Vec<SideEvidence> {
             let seen = |frame: usize| match frame {
                 0 => seen(frame, 1.7, Some([0.5, 4.0]), 5.0),
                 _ => SideEvidence {
-                    is_told: if frame == 1 { is_told } else { 1.0 },
+                    sure: if frame == 1 { sure } else { 1.0 },
                     ..seen(frame, 0.95, Some([4.0, 0.5]), 5.0)
                 },
             };
             (0..8).map(seen).collect()
         };
-        let first = |is_told: f64| chosen(&film(is_told))[0];
+        let first = |sure: f64| chosen(&film(sure))[0];
         assert_eq!(first(1.0).0, Side::Mirrored);
         let (side, margin) = first(0.1);
         assert!(side == Side::Own && margin > 1.0, "{margin}");
