@@ -75,7 +75,7 @@ pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
 pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 #[cfg(feature = "alloc")]
-pub use film_reading::FilmReading;
+pub use film_reading::{FilmReading, profiles_at};
 #[cfg(feature = "alloc")]
 pub use following::Following;
 pub use frame_pose::{

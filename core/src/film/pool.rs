@@ -3,8 +3,9 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
+use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with, leads_elsewhere};
 use super::given::GivenFilm;
+use super::model::FilmModel;
 use super::profile::FilmProfile;
 
 /// Profiles of one frame and component; fewer of a long film.
@@ -44,6 +45,14 @@ impl FilmPool {
     #[must_use]
     pub fn knows(&self, component: u8) -> bool {
         self.read.keys().any(|&(known, _)| known == component)
+    }
+
+    /// Whether constants that are known, `models` of the components by their numbers, stand: these profiles lead to no others from there, more than
+    /// three standard deviations away.
+    #[must_use]
+    pub fn stands_by(&self, models: &[FilmModel], given: GivenFilm) -> bool {
+        let mut profiles: Vec<FilmProfile> = self.read.values().flatten().copied().collect();
+        !leads_elsewhere(&mut profiles, models, given)
     }
 
     /// The constants of the film that all of it was taken on; `None` where the profiles do not tell.

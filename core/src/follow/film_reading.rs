@@ -108,7 +108,7 @@ impl FilmReading {
             ..*image
         };
         match self.look(frame, subject, &bare, memory) {
-            Some(pose) => self.read(frame, &pose, subject, &bare, memory),
+            Some(pose) => profiles_at(subject, image, &pose, (self.component, frame), memory),
             None => Vec::new(),
         }
     }
@@ -140,22 +140,27 @@ impl FilmReading {
             }
         }
     }
+}
 
-    fn read(
-        &self,
-        frame: usize,
-        pose: &Pose,
-        subject: &Subject<'_>,
-        image: &ImageTarget<'_>,
-        memory: &mut RefineMemory<'_>,
-    ) -> Vec<FilmProfile> {
-        let names = (self.component, u16::try_from(frame).unwrap_or(u16::MAX));
-        let mut read = vec![FilmProfile::default(); profiles_of_each(1)];
-        let (model, camera) = (subject.model, subject.camera);
-        let count = film_profiles(model, camera, pose, image, names, memory, &mut read);
-        read.truncate(count.unwrap_or(0));
-        read
-    }
+/// The profiles of a component (`names`: its number and that of the frame) at a pose that is known there; none where it cannot be drawn.
+#[must_use]
+pub fn profiles_at(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    pose: &Pose,
+    (component, frame): (u8, usize),
+    memory: &mut RefineMemory<'_>,
+) -> Vec<FilmProfile> {
+    let bare = ImageTarget {
+        film: None,
+        ..*image
+    };
+    let names = (component, u16::try_from(frame).unwrap_or(u16::MAX));
+    let mut read = vec![FilmProfile::default(); profiles_of_each(1)];
+    let (model, camera) = (subject.model, subject.camera);
+    let count = film_profiles(model, camera, pose, &bare, names, memory, &mut read);
+    read.truncate(count.unwrap_or(0));
+    read
 }
 
 #[cfg(test)]

@@ -53,8 +53,32 @@ impl RunsToSearch {
     /// found. [`Self::searched`] takes what came of it.
     #[must_use]
     pub fn next(&self, cells: &[Cell], range: &Range<usize>) -> Option<(usize, Range<usize>)> {
+        self.next_of_those(
+            &|frame| cells[frame].found().is_none(),
+            &clipped(range, cells),
+        )
+    }
+
+    /// The same of the frames alone in which the `other` component of the joint is known.
+    #[must_use]
+    pub fn next_beside(
+        &self,
+        cells: &[Cell],
+        other: &[Cell],
+        range: &Range<usize>,
+    ) -> Option<(usize, Range<usize>)> {
+        let is_known = |frame: usize| other.get(frame).is_some_and(|cell| cell.found().is_some());
+        let is_missing = |frame: usize| cells[frame].found().is_none() && is_known(frame);
+        self.next_of_those(&is_missing, &clipped(range, cells))
+    }
+
+    fn next_of_those(
+        &self,
+        is_missing: &dyn Fn(usize) -> bool,
+        range: &Range<usize>,
+    ) -> Option<(usize, Range<usize>)> {
         let is_worth = |run: &Range<usize>| run.len() >= LONG || self.vain < TRIES;
-        let runs = missing_runs(cells, range).filter(is_worth);
+        let runs = missing_runs(is_missing, range).filter(is_worth);
         let each = runs.filter_map(|run| Some((self.next_of(&run)?, run)));
         // Of those that are as long the first.
         each.reduce(|one, other| {
@@ -83,15 +107,24 @@ impl RunsToSearch {
     }
 }
 
-/// The runs of frames without a pose.
 #[cfg(feature = "alloc")]
-fn missing_runs(cells: &[Cell], range: &Range<usize>) -> impl Iterator<Item = Range<usize>> {
-    let end = range.end.min(cells.len());
+fn clipped(range: &Range<usize>, cells: &[Cell]) -> Range<usize> {
+    range.start..range.end.min(cells.len())
+}
+
+/// The runs of frames that are missing.
+#[cfg(feature = "alloc")]
+fn missing_runs(
+    is_missing: &dyn Fn(usize) -> bool,
+    range: &Range<usize>,
+) -> impl Iterator<Item = Range<usize>> {
     let mut at = range.start;
+    let end = range.end;
     core::iter::from_fn(move || {
-        let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
-        let next = (start..end).find(|&frame| cells[frame].found().is_some());
-        at = next.unwrap_or(end);
+        let start = (at..end).find(|&frame| is_missing(frame))?;
+        at = (start..end)
+            .find(|&frame| !is_missing(frame))
+            .unwrap_or(end);
         Some(start..at)
     })
 }
@@ -114,6 +147,23 @@ mod tests {
         assert_eq!(frames_to_search(&(5..7))[..], [6, 5]);
         assert_eq!(frames_to_search(&(5..6))[..], [5]);
         assert!(frames_to_search(&(5..5)).is_empty());
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn beside_the_other_component_it_is_searched_where_that_is_known() {
+        let cells = film();
+        let mut other = film();
+        other.rotate_left(30);
+        let runs = RunsToSearch::default();
+        // The other one lacks 3 to 8, 15 to 19 and 30 to 39.
+        assert_eq!(
+            runs.next_beside(&cells, &other, &(0..40)),
+            Some((25, 20..30))
+        );
+        assert_eq!(runs.next_beside(&cells, &other, &(0..20)), Some((9, 9..10)));
+        assert_eq!(runs.next_beside(&cells, &cells, &(0..40)), None);
+        assert_eq!(runs.next_beside(&cells, &[], &(0..40)), None);
     }
 
     /// Frames 5 to 9, 20 to 29 and 33 to 38 are missing.

@@ -227,6 +227,25 @@ fn a_frame_whose_pose_is_wrong_is_left_out() {
 }
 
 #[test]
+fn constants_stand_by_what_they_were_learnt_from_and_fall_by_films_of_others() {
+    let film = both(linear, linear).expect("told");
+    let known = [film.model(0), film.model(1)];
+    let leads = |models: &[FilmModel], shown: fn(f64) -> f64| {
+        let mut all = profiles(0, 0.7, shown);
+        all.extend(profiles(1, 0.2, shown));
+        leads_elsewhere(&mut all, models, GivenFilm::default())
+    };
+    assert!(!leads(&known, linear));
+    assert!(leads(&known, logarithmic));
+    for denser in [0.07, 0.6] {
+        let mut other = known;
+        other[1].attenuation = denser;
+        assert!(leads(&other, linear), "{denser}");
+    }
+    assert!(!leads(&[], linear), "nothing is known that could fall");
+}
+
+#[test]
 fn one_component_alone_tells_a_curved_display_from_enhanced_edges() {
     let alone =
         |stated| estimate_with(&mut profiles(0, 0.7, logarithmic), 1, stated).expect("told");

@@ -8,7 +8,7 @@ use super::follow::{follow, mark};
 use super::part::Part;
 use super::request::{Click, Told};
 use super::run::Run;
-use super::search::{Beside, clicked, searched};
+use super::search::{Beside, clicked, in_joint, searched};
 use super::table::TABLE;
 
 /// The frames whose pose a person fixed.
@@ -120,6 +120,35 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         Ok(Anchor::found(frame, found.unwrap_or(anchor.found)))
     };
     anchors.iter().map(one).collect()
+}
+
+/// Looks for a component in runs of frames in which it was not found and the other one of its joint is known: where the joint leaves it beside
+/// that. Whether it was found anywhere.
+pub(super) fn fill_in_joint(
+    run: &Run<'_>,
+    (part, cells): (&Part<'_>, &mut [Cell]),
+    (other, known): (&Part<'_>, &[Cell]),
+) -> Result<bool> {
+    let mut runs = RunsToSearch::default();
+    let all = 0..cells.len();
+    let mut any = false;
+    while let Some((frame, gap)) = runs.next_beside(cells, known, &all) {
+        let Some(&beside) = known[frame].found() else {
+            break;
+        };
+        let beside = Beside {
+            part: other,
+            from: &Anchor::found(frame, beside),
+            pose: beside.pose,
+        };
+        let found = in_joint(run, part, frame, beside)?;
+        runs.searched(frame, &gap, found.is_some());
+        if let Some(found) = found {
+            any = true;
+            follow(run, part, &[Anchor::found(frame, found)], gap, cells)?;
+        }
+    }
+    Ok(any)
 }
 
 /// Looks for a component in runs of frames in which it was not found, and follows it from where it is.

@@ -2,14 +2,19 @@
 
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::{FilmPool, FilmProfile};
-use fluoropose::follow::{Anchor, FilmReading};
+use fluoropose::film::{FilmEstimate, FilmModel, FilmPool, FilmProfile};
+use fluoropose::follow::{Anchor, FilmReading, profiles_at};
+use fluoropose::pose::Pose;
 use rayon::prelude::*;
 
 use super::part::Part;
 use super::record::Films;
 use super::run::Run;
 use crate::finding::Stated;
+
+/// Of a component that is good in fewer frames nothing is learnt again, and of one that is in many not from more of them.
+const LEAST_GOOD: usize = 4;
+const MOST_GOOD: usize = 12;
 
 /// Takes the constants as they are stated, or estimates them from the frames around the anchors, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
@@ -55,6 +60,59 @@ pub(super) fn learn_film(
         part.set_film(film);
     }
     Ok(())
+}
+
+/// Whether the constants, as they were learnt from the frames around the anchors, are others by frames that were followed since and are `good`;
+/// tells the parts. So they do not hang on a first pose that is wrong.
+pub(super) fn learn_again(
+    run: &Run<'_>,
+    stated: &Stated,
+    parts: &[Part<'_>],
+    good: &[Vec<(usize, Pose)>],
+) -> Result<bool> {
+    let Stated::Part(given) = stated else {
+        return Ok(false);
+    };
+    let known: Option<Vec<FilmModel>> = parts.iter().map(Part::film).collect();
+    let Some(known) = known.filter(|_| good.iter().all(|good| good.len() >= LEAST_GOOD)) else {
+        return Ok(false);
+    };
+    let films = run.journal.step("film/again", || {
+        run.say("film: its constants are compared with all frames".to_owned());
+        let pool = pool_of(run, parts, good)?;
+        let stands = pool.stands_by(&known, *given);
+        let found = pool.estimate(*given).filter(|_| !stands);
+        if let Some(found) = &found {
+            run.say(format!("film: as followed, {found}"));
+        }
+        let models = |found: FilmEstimate| (0..parts.len()).map(|part| found.model(part)).collect();
+        Ok(Films(found.map_or(Vec::new(), models)))
+    })?;
+    for (part, film) in parts.iter().zip(&films.0) {
+        part.set_film(*film);
+    }
+    Ok(!films.0.is_empty())
+}
+
+/// Profiles of all components in some of the frames in which each is good, from all over the film.
+fn pool_of(run: &Run<'_>, parts: &[Part<'_>], good: &[Vec<(usize, Pose)>]) -> Result<FilmPool> {
+    let mut pool = FilmPool::default();
+    for (part, good) in parts.iter().zip(good).take(MOST_COMPONENTS) {
+        let each = good
+            .par_iter()
+            .step_by(good.len().div_ceil(MOST_GOOD).max(1));
+        let read = each.map(|(frame, pose)| {
+            let name = (part.number as u8, *frame);
+            let profiles = part.see(run.film, *frame, |subject, image, memory| {
+                profiles_at(subject, image, pose, name, memory)
+            })?;
+            Ok((name, profiles))
+        });
+        for ((component, frame), profiles) in read.collect::<Result<Vec<_>>>()? {
+            pool.take(component, frame as u16, profiles);
+        }
+    }
+    Ok(pool)
 }
 
 /// Profiles of a component in the frames around its anchors.

@@ -7,15 +7,16 @@ use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{
     Anchor, Cell, Conclusion, KnownBeside, KnownFemur, Settling, State, conclude, trusted_depths,
 };
+use fluoropose::joint::beside::Beside;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
 use fluoropose_report::counted;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::anchors::{again, fill};
-use super::constants::learn_film;
+use super::anchors::{again, fill, fill_in_joint};
+use super::constants::{learn_again, learn_film};
 use super::follow::follow;
 use super::journal::Journal;
 use super::metal::begun;
@@ -140,7 +141,11 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     };
     let (parts, anchors) = begun(&run, parts)?;
     learn_film(&run, &stated, &parts, &anchors)?;
-    let (films, margins) = followed(&run, &parts, &anchors)?;
+    let (mut films, mut margins) = followed(&run, &parts, &anchors)?;
+    let good = good(&run, &parts, &films, &margins);
+    if learn_again(&run, &stated, &parts, &good)? {
+        (films, margins) = followed(&run, &parts, &anchors)?;
+    }
     finish(&run, &parts, &films, &margins)
 }
 
@@ -174,22 +179,13 @@ fn digest(
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// A component followed by itself.
-fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cell>> {
-    let mut cells = vec![Cell::default(); run.film.count()];
-    let anchors = again(run, part, anchors)?;
-    follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
-    fill(run, part, &mut cells)?;
-    Ok(cells)
-}
-
-/// All components, side by side as far as they need no other: a tibia waits for its femur where its sides are chosen.
+/// All components, side by side as far as they need no other: a tibia waits for its femur where its sides are chosen. A component that is lost after
+/// all is looked for beside the other one of its joint.
 fn followed(
     run: &Run<'_>,
     parts: &[Part<'_>],
     anchors: &[Vec<Anchor>],
 ) -> Result<(Vec<Vec<Cell>>, Vec<Margins>)> {
-    let is_tibia = |part: &Part<'_>| part.role() == Some(Role::Tibia);
     let alone = |(part, anchors): (&Part<'_>, &Vec<Anchor>)| -> Result<(Vec<Cell>, Settling)> {
         let mut cells = of_part(run, part, anchors)?;
         let mut settling = Settling::new(part.middle(), 0..cells.len());
@@ -206,15 +202,72 @@ fn followed(
         let settling = &mut settlings[number];
         settle(run, part, femur.as_ref(), settling, &mut films[number])?;
     }
-    let margins = settlings.iter().zip(&films);
-    let margins = margins.map(|(settling, cells)| settling.margins(cells));
-    let margins = margins.collect();
+    for (number, part) in parts.iter().enumerate() {
+        let Some(other) = other_of(number, parts) else {
+            continue;
+        };
+        let known = trusted(run, (other, parts), &films, &margins_of(&settlings, &films));
+        let cells = &mut films[number];
+        if fill_in_joint(run, (part, cells), (&parts[other], &known))? {
+            let mut settling = Settling::new(part.middle(), 0..cells.len());
+            let femur = femur_of(part, parts, &films);
+            let cells = &mut films[number];
+            if up_to_a_choice(run, part, &mut settling, cells)? {
+                settle(run, part, femur.as_ref(), &mut settling, cells)?;
+            }
+            settlings[number] = settling;
+        }
+    }
+    let margins = margins_of(&settlings, &films);
     Ok((films, margins))
+}
+
+fn margins_of(settlings: &[Settling], films: &[Vec<Cell>]) -> Vec<Margins> {
+    let each = settlings.iter().zip(films);
+    each.map(|(settling, cells)| settling.margins(cells))
+        .collect()
+}
+
+/// A component in those frames alone in which it is good.
+fn trusted(
+    run: &Run<'_>,
+    (number, parts): (usize, &[Part<'_>]),
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+) -> Vec<Cell> {
+    let judged = judged(run, (number, parts), films, margins, &[]);
+    let each = judged.iter().zip(&films[number]);
+    let trusted = |(one, cell): (&Conclusion, &Cell)| match one.is_trusted() {
+        true => *cell,
+        false => Cell::default(),
+    };
+    each.map(trusted).collect()
+}
+
+fn is_tibia(part: &Part<'_>) -> bool {
+    part.role() == Some(Role::Tibia)
+}
+
+/// The other component of a component's joint.
+fn other_of(number: usize, parts: &[Part<'_>]) -> Option<usize> {
+    let own = parts[number].role()?;
+    parts
+        .iter()
+        .position(|other| other.role() == Some(own.other()))
+}
+
+/// A component followed by itself.
+fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cell>> {
+    let mut cells = vec![Cell::default(); run.film.count()];
+    let anchors = again(run, part, anchors)?;
+    follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
+    fill(run, part, &mut cells)?;
+    Ok(cells)
 }
 
 /// The femur of a tibia, where both components' axes are known.
 fn femur_of(part: &Part<'_>, parts: &[Part<'_>], films: &[Vec<Cell>]) -> Option<KnownFemur> {
-    let axes = part.axes.filter(|_| part.role() == Some(Role::Tibia))?;
+    let axes = part.axes.filter(|_| is_tibia(part))?;
     let is_femur = |part: &Part<'_>| part.role() == Some(Role::Femur);
     let femur = parts.iter().position(is_femur)?;
     let in_field = parts[femur].axes?;
@@ -223,6 +276,45 @@ fn femur_of(part: &Part<'_>, parts: &[Part<'_>], films: &[Vec<Cell>]) -> Option<
         poses: films[femur].iter().map(pose).collect(),
         axes,
     })
+}
+
+/// The frames in which each component is good as it was followed, with its poses.
+fn good(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+) -> Vec<Vec<(usize, Pose)>> {
+    let of_part = |number: usize| {
+        let trusted = trusted(run, (number, parts), films, margins);
+        let found = trusted.iter().enumerate();
+        let found = found.filter_map(|(frame, cell)| Some((frame, cell.found()?.pose)));
+        found.collect()
+    };
+    (0..parts.len()).map(of_part).collect()
+}
+
+/// A component's whole film judged, with what is told of its `joint`.
+fn judged(
+    run: &Run<'_>,
+    (number, parts): (usize, &[Part<'_>]),
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+    joint: &[Option<Beside>],
+) -> Vec<Conclusion> {
+    let part = &parts[number];
+    let depths = other_of(number, parts).map_or(Vec::new(), |other| {
+        trusted_depths(&films[other], &margins[other], &parts[other].middle())
+    });
+    let femur = femur_of(part, parts, films);
+    let known = KnownBeside {
+        other_depths_mm: &depths,
+        femur: femur.as_ref(),
+        joint,
+        other_shape: part.other_shape(),
+        longest_gap: run.request.interpolate,
+    };
+    conclude(&films[number], &margins[number], &known, &part.middle())
 }
 
 /// Judges, and writes the files.
@@ -236,23 +328,8 @@ fn finish(
     let mut tracked = Vec::new();
     let joint = beside(run, parts, films)?;
     for (number, part) in parts.iter().enumerate() {
-        let other = (0..parts.len()).find(|&other| {
-            let role = |number: usize| parts[number].role();
-            role(number).is_some_and(|own| role(other) == Some(own.other()))
-        });
-        let depths = other.map_or(Vec::new(), |other| {
-            trusted_depths(&films[other], &margins[other], &parts[other].middle())
-        });
         let (cells, middle) = (&films[number], part.middle());
-        let femur = femur_of(part, parts, films);
-        let known = KnownBeside {
-            other_depths_mm: &depths,
-            femur: femur.as_ref(),
-            joint: &joint,
-            other_shape: part.other_shape(),
-            longest_gap: run.request.interpolate,
-        };
-        let judged = conclude(cells, &margins[number], &known, &middle);
+        let judged = judged(run, (number, parts), films, margins, &joint);
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))

@@ -1,6 +1,6 @@
 //! A component that is followed, with what belongs to it and the memory to look at frames.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError, RwLock};
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
@@ -43,7 +43,8 @@ pub(super) struct Part<'s> {
     pub(super) polarity: Polarity,
     calibration: &'s Calibration,
     libraries: [OnceLock<Built>; 2],
-    film: OnceLock<FilmModel>,
+    /// What the film makes of the component, and how often that was learnt.
+    film: RwLock<(Option<FilmModel>, usize)>,
     buffers: Mutex<Vec<RefineBuffers>>,
 }
 
@@ -132,7 +133,7 @@ impl<'s> Part<'s> {
             polarity,
             calibration,
             libraries: Default::default(),
-            film: OnceLock::new(),
+            film: RwLock::default(),
             buffers: Mutex::default(),
         }
     }
@@ -152,22 +153,28 @@ impl<'s> Part<'s> {
 
     /// What the film makes of the component, once that is known.
     pub(super) fn film(&self) -> Option<FilmModel> {
-        self.film.get().copied()
+        self.known_film().0
+    }
+
+    fn known_film(&self) -> (Option<FilmModel>, usize) {
+        *self.film.read().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// From now on edges are compared with those that the film makes of the component.
     pub(super) fn set_film(&self, film: FilmModel) {
-        // It becomes known once.
-        let _ = self.film.set(film);
+        let mut known = self.film.write().unwrap_or_else(PoisonError::into_inner);
+        *known = (Some(film), known.1 + 1);
     }
 
-    /// Tells steps with the film's constants from those without.
+    /// Tells steps with the film's constants from those without, and from those with others.
     pub(super) fn phase(&self) -> &'static str {
-        match (self.film.get().is_some(), self.polarity) {
-            (true, Polarity::DarkImplant) => "film",
-            (false, Polarity::DarkImplant) => "bare",
-            (true, Polarity::BrightImplant) => "bright-film",
-            (false, Polarity::BrightImplant) => "bright-bare",
+        match (self.known_film().1, self.polarity) {
+            (0, Polarity::DarkImplant) => "bare",
+            (1, Polarity::DarkImplant) => "film",
+            (_, Polarity::DarkImplant) => "film-again",
+            (0, Polarity::BrightImplant) => "bright-bare",
+            (1, Polarity::BrightImplant) => "bright-film",
+            (_, Polarity::BrightImplant) => "bright-film-again",
         }
     }
 
