@@ -22,6 +22,19 @@ export async function picturesOf({ name, buffer }, count) {
 /** Runs in the page. @param {{ address: string, count: number }} film */
 async function drawn({ address, count }) {
   const video = document.createElement('video');
+  // What is sought is said to be there before it is painted: on a busy machine much later. A picture that stays is painted no more.
+  let paintedAt = NaN;
+  const onPainted = (/** @type {number} */ _, /** @type {{ mediaTime: number }} */ { mediaTime }) => {
+    paintedAt = mediaTime;
+    video.requestVideoFrameCallback(onPainted);
+  };
+  video.requestVideoFrameCallback(onPainted);
+  const mostScreenFrames = 1000;
+  const painted = async (/** @type {number} */ index) => {
+    for (let frames = 0; frames < mostScreenFrames && Math.round((paintedAt * count) / video.duration) !== index; frames++) {
+      await new Promise((go) => requestAnimationFrame(go));
+    }
+  };
   await new Promise((go, stop) => {
     video.onloadeddata = go;
     video.onerror = () => stop(new Error(video.error?.message));
@@ -31,12 +44,10 @@ async function drawn({ address, count }) {
   Object.assign(canvas, { width: video.videoWidth, height: video.videoHeight });
   const pictures = [];
   for (let index = 0; index < count; index++) {
-    // What is sought is said to be there before it is painted: on a busy machine much later. A picture that stays is painted no more.
-    const painted = new Promise((go) => video.requestVideoFrameCallback(go));
     const seen = new Promise((go) => (video.onseeked = go));
     video.currentTime = ((index + 0.5) / count) * video.duration;
     await seen;
-    await Promise.race([painted, new Promise((go) => setTimeout(go, 3000))]);
+    await painted(index);
     canvas.getContext('2d')?.drawImage(video, 0, 0);
     pictures.push(canvas.toDataURL());
   }

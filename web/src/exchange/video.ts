@@ -91,7 +91,7 @@ async function seek(element: HTMLVideoElement, time: number, signal: AbortSignal
   element.currentTime = time;
   try {
     await heard(element, 'seeked', signal, said.cannot(''));
-    return await Promise.race([shown, later(SAME_PICTURE)]);
+    return await Promise.race([shown, noOtherPicture()]);
   } finally {
     forget();
   }
@@ -107,11 +107,20 @@ function nextPicture(element: HTMLVideoElement): { readonly shown: Promise<numbe
   return { shown, forget: () => element.cancelVideoFrameCallback(id) };
 }
 
-/** So long after a seek no other picture is to be expected, ms. */
-const SAME_PICTURE = 250;
+/** So long after a seek no other picture is to be expected: ms, and then so many screen frames, for a busy machine shows few of them. */
+const SAME_PICTURE = { milliseconds: 250, frames: 5 };
 
-function later(milliseconds: number): Promise<null> {
-  return new Promise((resolve) => setTimeout(() => resolve(null), milliseconds));
+async function noOtherPicture(): Promise<null> {
+  await after(SAME_PICTURE.milliseconds);
+  for (let frame = 0; frame < SAME_PICTURE.frames; frame++) {
+    // A page that nobody sees has no screen frames.
+    await Promise.race([new Promise((resolve) => requestAnimationFrame(resolve)), after(SAME_PICTURE.milliseconds)]);
+  }
+  return null;
+}
+
+function after(milliseconds: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }
 
 /** Plays the beginning and takes the least step between pictures: a busy machine leaves some out, none come too early. */
