@@ -244,12 +244,18 @@ export async function screenshot(page, name, part) {
 export async function until(ask, wanted, what) {
   const end = Date.now() + PATIENCE;
   for (;;) {
+    const askedAt = performance.now();
     const answer = await ask();
     if (wanted(answer)) return answer;
     if (Date.now() > end) throw new Error(`waited in vain for ${what}; the last answer was ${JSON.stringify(answer)}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
+    // Asking keeps the page from what is waited for: most of the time it is left alone.
+    const pause = Math.min(LONGEST_PAUSE, Math.max(SHORTEST_PAUSE, 3 * (performance.now() - askedAt)));
+    await new Promise((resolve) => setTimeout(resolve, pause));
   }
 }
+
+/** Between two questions, ms. */
+const [SHORTEST_PAUSE, LONGEST_PAUSE] = [50, 500];
 
 /** What a part of the page says once that is what is wanted. @param {import('playwright-core').Locator} part @param {RegExp} pattern */
 export function says(part, pattern) {

@@ -1,4 +1,4 @@
-/** Films that the page wrote, played by a browser that knows nothing of the page. */
+/** Videos that a browser made, and films that the page wrote, played by a browser that knows nothing of the page. */
 import { decode } from 'fast-png';
 import { openWindow } from './browser.mjs';
 
@@ -52,4 +52,74 @@ async function drawn({ address, count }) {
     pictures.push(canvas.toDataURL());
   }
   return pictures;
+}
+
+/**
+ * A WebM of frames of one grey each, with neither a duration nor an index, as recorders of browsers leave it: but theirs has what a busy machine got around to.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {{ levels: readonly number[], width: number, height: number, milliseconds: number }} wanted `milliseconds`: how long each is shown
+ */
+export async function webmOf(page, wanted) {
+  const { width, height, milliseconds } = wanted;
+  const pictures = await page.evaluate(encoded, wanted);
+  const blocks = pictures.map((picture, index) => {
+    const head = Buffer.from([0x81, 0, 0, 0x80]);
+    head.writeInt16BE(index * milliseconds, 1);
+    return element('a3', head, Buffer.from(picture, 'base64'));
+  });
+  const video = element('e0', element('b0', number(width)), element('ba', number(height)));
+  const track = element('ae', element('d7', number(1)), element('73c5', number(1)), element('83', number(1)), element('86', Buffer.from('V_VP8')), video);
+  return Buffer.concat([
+    element('1a45dfa3', element('4282', Buffer.from('webm')), element('4287', number(4)), element('4285', number(2))),
+    endless('18538067'),
+    element('1549a966', element('2ad7b1', number(1_000_000))),
+    element('1654ae6b', track),
+    endless('1f43b675'),
+    element('e7', number(0)),
+    ...blocks,
+  ]);
+}
+
+/** Runs in the page: each a key frame of VP8, base64. @param {Parameters<typeof webmOf>[1]} wanted @returns {Promise<string[]>} */
+async function encoded({ levels, width, height, milliseconds }) {
+  /** @type {string[]} */
+  const pictures = [];
+  const output = (/** @type {EncodedVideoChunk} */ chunk) => {
+    const bytes = new Uint8Array(chunk.byteLength);
+    chunk.copyTo(bytes);
+    pictures.push(btoa(String.fromCharCode(...bytes)));
+  };
+  const encoder = new VideoEncoder({ output, error: (error) => console.error(error) });
+  encoder.configure({ codec: 'vp8', width, height, bitrate: 4_000_000 });
+  for (const [index, level] of levels.entries()) {
+    // Luma is between 16 and 235, and grey has no chroma.
+    const planes = new Uint8Array((3 * width * height) / 2).fill(128).fill(Math.round(16 + (level * 219) / 255), 0, width * height);
+    const frame = new VideoFrame(planes, { format: 'I420', codedWidth: width, codedHeight: height, timestamp: index * milliseconds * 1000 });
+    encoder.encode(frame, { keyFrame: true });
+    frame.close();
+  }
+  await encoder.flush();
+  encoder.close();
+  return pictures;
+}
+
+/** An element of EBML (RFC 8794), its length in eight bytes. @param {string} id hexadecimal @param {...Buffer} content */
+function element(id, ...content) {
+  const body = Buffer.concat(content);
+  const length = Buffer.alloc(8);
+  length.writeBigUInt64BE((1n << 56n) | BigInt(body.length));
+  return Buffer.concat([Buffer.from(id, 'hex'), length, body]);
+}
+
+/** One that goes on to the end. @param {string} id */
+function endless(id) {
+  return Buffer.concat([Buffer.from(id, 'hex'), Buffer.from('01ffffffffffffff', 'hex')]);
+}
+
+/** @param {number} value */
+function number(value) {
+  const bytes = Buffer.alloc(4);
+  bytes.writeUInt32BE(value);
+  return bytes;
 }

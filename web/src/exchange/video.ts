@@ -10,7 +10,7 @@ export interface Video {
   readonly height: number;
   /** Seconds. */
   readonly duration: number;
-  /** Pictures a second, as measured. */
+  /** Pictures a second, by the least time that one is shown. */
   readonly rate: number;
   readonly element: HTMLVideoElement;
   close(): void;
@@ -45,7 +45,7 @@ export async function openVideo(name: string, blob: Blob, signal: AbortSignal): 
     const { videoWidth: width, videoHeight: height } = element;
     if (width === 0 || height === 0) throw new Error(said.noSize(name));
     const end = await durationOf(element, signal);
-    const rate = await rateOf(element, signal);
+    const rate = await rateOf(element, blob, signal);
     // Recorders may end a video with the beginning of its last picture: that one lasts a while, too.
     const last = await seek(element, end, signal);
     const duration = Math.max(end, (last ?? 0) + 1 / rate);
@@ -123,8 +123,14 @@ function after(milliseconds: number): Promise<void> {
   return new Promise((resolve) => setTimeout(resolve, milliseconds));
 }
 
+/** By the file's own times of its pictures, else as the beginning plays. */
+async function rateOf(element: HTMLVideoElement, blob: Blob, signal: AbortSignal): Promise<number> {
+  const times = await (await import('./picture_times')).pictureTimes(blob, signal);
+  return times.length > 1 ? rateFrom(times) : playedRate(element, signal);
+}
+
 /** Plays the beginning and takes the least step between pictures: a busy machine leaves some out, none come too early. */
-async function rateOf(element: HTMLVideoElement, signal: AbortSignal): Promise<number> {
+async function playedRate(element: HTMLVideoElement, signal: AbortSignal): Promise<number> {
   if (!('requestVideoFrameCallback' in element)) return USUAL_RATE;
   await seek(element, 0, signal);
   const times: number[] = [];
