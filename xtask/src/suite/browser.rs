@@ -72,7 +72,7 @@ fn dist() -> PathBuf {
 
 fn in_chromium() -> Result<Said> {
     let (chromium, laboratory) = (programs::chromium()?, checked_profile::laboratory()?);
-    drive(test_files::all_in(&folder())?, &|tests| {
+    drive(test_files::all_in(&folder())?, 3, &|tests| {
         // What the page writes is compared with what the command does.
         tests
             .env("FLUOROPOSE_CHROMIUM", &chromium)
@@ -82,7 +82,7 @@ fn in_chromium() -> Result<Said> {
 
 fn in_firefox() -> Result<Said> {
     let firefox = programs::firefox()?;
-    drive(IN_FIREFOX.map(str::to_owned).into(), &|tests| {
+    drive(IN_FIREFOX.map(str::to_owned).into(), 2, &|tests| {
         tests.env("FLUOROPOSE_FIREFOX", &firefox);
     })
 }
@@ -92,11 +92,13 @@ fn folder() -> PathBuf {
 }
 
 /// Serves the page and runs files of `tests/browser` against it; `with` says in which browser.
-fn drive(files: Vec<String>, with: &(dyn Fn(&mut Command) + Sync)) -> Result<Said> {
+///
+/// Two cores are busy with few of them: six at a time take a fifth more processor time than two (`tests/records/tests.md`).
+fn drive(files: Vec<String>, at_once: usize, with: &(dyn Fn(&mut Command) + Sync)) -> Result<Said> {
     let node = node::node()?;
     node::install(&folder())?;
     let server = Server::start(&dist(), 0)?;
-    test_files::run(&folder(), files, &|| {
+    test_files::run(&folder(), files, at_once, &|| {
         let mut tests = Command::new(&node);
         tests
             .env("FLUOROPOSE_URL", server.url())

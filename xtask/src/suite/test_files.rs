@@ -15,19 +15,18 @@ use crate::output::{self, announce, say};
 use crate::setup::failed::Failed;
 use crate::setup::telling;
 
-/// On two cores: most of the time a page waits for a screen frame, or a hand for the page.
-const AT_ONCE: usize = 4;
 /// The longest, which begin first: what begins late and takes long is waited for alone.
-const LONG: [&str; 9] = [
+const LONG: [&str; 10] = [
     "following",
-    "by_keys",
-    "edges",
-    "certainty",
-    "axes",
-    "axe",
-    "bad_input",
-    "crash",
     "publishing",
+    "shuttered",
+    "by_keys",
+    "own_data",
+    "from_nothing",
+    "axes",
+    "new_user",
+    "certainty",
+    "axe",
 ];
 /// What is at fault by chance is at fault in a test or two. More files are not tried again.
 const MOST_TRIED_AGAIN: usize = 3;
@@ -39,7 +38,7 @@ struct Ended {
     output: String,
 }
 
-/// Runs files of `folder`; `prepare` says by which program, and in which surroundings.
+/// Runs files of `folder`, so many at a time; `prepare` says by which program, and in which surroundings.
 ///
 /// A file that fails is tried once more when all others are done. Where it passes then, that is said with the names of its tests that failed before.
 ///
@@ -48,10 +47,11 @@ struct Ended {
 pub(super) fn run(
     folder: &Path,
     files: Vec<String>,
+    at_once: usize,
     prepare: &(dyn Fn() -> Command + Sync),
 ) -> Result<Said> {
     let one = |file: &String| run_file(folder, file, prepare());
-    let (passed, failed): (Vec<_>, Vec<_>) = beside_each_other(long_first(files), one)?
+    let (passed, failed): (Vec<_>, Vec<_>) = beside_each_other(long_first(files), at_once, one)?
         .into_iter()
         .partition(|ended| ended.success);
     let mut counts = sum(&passed)?;
@@ -104,6 +104,7 @@ fn long_first(mut files: Vec<String>) -> VecDeque<String> {
 /// Does something with each file, so many at a time, in the lane of this thread.
 fn beside_each_other(
     files: VecDeque<String>,
+    at_once: usize,
     one: impl Fn(&String) -> Result<Ended> + Sync,
 ) -> Result<Vec<Ended>> {
     let lane = output::lane();
@@ -118,7 +119,7 @@ fn beside_each_other(
         || -> Result<Vec<Ended>> { std::iter::from_fn(next).map(|file| one(&file)).collect() };
     let in_lane = || lane.map_or_else(work, |lane| lane.work(work));
     let ended = thread::scope(|scope| {
-        let workers: Vec<_> = (0..AT_ONCE).map(|_| scope.spawn(in_lane)).collect();
+        let workers: Vec<_> = (0..at_once).map(|_| scope.spawn(in_lane)).collect();
         workers
             .into_iter()
             .map(thread::ScopedJoinHandle::join)
@@ -148,6 +149,9 @@ fn run_file(folder: &Path, file: &str, mut node: Command) -> Result<Ended> {
         success: told.status.success(),
         output: text(&told.stdout) + &text(&told.stderr),
     };
+    // One file after the other.
+    static SHOWING: Mutex<()> = Mutex::new(());
+    let _turn = SHOWING.lock().unwrap_or_else(PoisonError::into_inner);
     say(&format!(
         "{file}: {}",
         if ended.success { "passed" } else { "FAILED" }
@@ -211,15 +215,12 @@ mod tests {
         let folder: PathBuf =
             std::env::temp_dir().join(format!("fluoropose-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder)?;
-        let said = run(
-            &folder,
-            files.iter().map(|&file| file.to_owned()).collect(),
-            &|| {
-                let mut shell = Command::new("sh");
-                shell.args(["-c", RUNNER, "sh"]);
-                shell
-            },
-        );
+        let files = files.iter().map(|&file| file.to_owned()).collect();
+        let said = run(&folder, files, 2, &|| {
+            let mut shell = Command::new("sh");
+            shell.args(["-c", RUNNER, "sh"]);
+            shell
+        });
         fs::remove_dir_all(&folder)?;
         said
     }
