@@ -24,12 +24,18 @@ enum Outcome {
 pub(crate) struct Said {
     counts: Option<Counts>,
     words: String,
+    /// What is told at the end although it passed.
+    lines: Vec<String>,
 }
 
 impl Said {
-    /// With words beside its counts.
-    pub(crate) fn with_words(self, words: String) -> Self {
-        Self { words, ..self }
+    /// With words beside its counts, and lines that tell of them at the end.
+    pub(crate) fn with_words(self, words: String, lines: Vec<String>) -> Self {
+        Self {
+            words,
+            lines,
+            ..self
+        }
     }
 }
 
@@ -43,7 +49,7 @@ impl From<Counts> for Said {
     fn from(counts: Counts) -> Self {
         Self {
             counts: Some(counts),
-            words: String::new(),
+            ..Self::default()
         }
     }
 }
@@ -51,8 +57,8 @@ impl From<Counts> for Said {
 impl From<String> for Said {
     fn from(words: String) -> Self {
         Self {
-            counts: None,
             words,
+            ..Self::default()
         }
     }
 }
@@ -203,13 +209,15 @@ const MOST_TOLD: usize = 40;
 impl Line {
     /// At the very end, which is kept where a log is cut.
     fn tell_why(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Outcome::Failed(Failed { lines, .. }) = &self.outcome else {
-            return Ok(());
+        let (word, lines) = match &self.outcome {
+            Outcome::Failed(Failed { lines, .. }) => ("FAILED", lines),
+            Outcome::Passed(Said { lines, .. }) => ("passed at last", lines),
+            Outcome::Skipped(_) => return Ok(()),
         };
         if lines.is_empty() {
             return Ok(());
         }
-        writeln!(f, "\nFAILED {}:", self.step)?;
+        writeln!(f, "\n{word}: {}", self.step)?;
         for line in lines.iter().take(MOST_TOLD) {
             writeln!(f, "  {line}")?;
         }
@@ -304,12 +312,21 @@ mod tests {
         let (table, end) = text.split_once("0 passed, 2 failed\n").unwrap();
         assert!(table.contains("a test failed"), "{table}");
         assert!(
-            end.starts_with("\nFAILED one:\n  a::b\n      not right\n\nFAILED two:\n  line\n"),
+            end.starts_with("\nFAILED: one\n  a::b\n      not right\n\nFAILED: two\n  line\n"),
             "{end}"
         );
         assert!(
             end.ends_with("  line\n  and 3 lines more, where the step failed\n"),
             "{end}"
+        );
+        report.step("three", || {
+            let words = "one passed at the second attempt".to_owned();
+            Ok(Said::default().with_words(words, vec!["a.mjs".into()]))
+        });
+        let text = report.to_string();
+        assert!(
+            text.ends_with("\npassed at last: three\n  a.mjs\n"),
+            "{text}"
         );
     }
 

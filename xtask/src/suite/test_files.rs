@@ -58,25 +58,30 @@ pub(super) fn run(
     if failed.len() > MOST_TRIED_AGAIN {
         return Err(of_all(&failed).into());
     }
-    let mut second = Vec::new();
+    let (mut second, mut twice) = (Vec::new(), Vec::new());
     for first in &failed {
         announce(&format!("{}: once more", first.file));
         let again = run_file(folder, &first.file, prepare())?;
-        if !again.success {
-            return Err(of_all(&[again]).into());
+        if again.success {
+            counts = counts.and(counts::of_node(&again.output)?);
+            second.extend(first.names());
+        } else {
+            twice.push(again);
         }
-        counts = counts.and(counts::of_node(&again.output)?);
-        second.extend(first.names());
+    }
+    if !twice.is_empty() {
+        return Err(of_all(&twice).into());
     }
     let said = Said::from(counts);
     if second.is_empty() {
         return Ok(said);
     }
-    Ok(said.with_words(format!(
+    let words = format!(
         "{} passed at the second attempt: {}",
         second.len(),
         second.join("; ")
-    )))
+    );
+    Ok(said.with_words(words, told_of(&failed)))
 }
 
 /// The names of all files of tests in a folder.
@@ -177,14 +182,22 @@ impl Ended {
 /// The failure of some files, with what their tests say.
 fn of_all(failed: &[Ended]) -> Failed {
     let count: usize = failed.iter().map(|ended| ended.names().len()).sum();
-    let lines = failed.iter().flat_map(|ended| {
-        let told = telling::of_node(&ended.output);
-        std::iter::once(ended.file.clone()).chain(told.into_iter().map(|line| format!("  {line}")))
-    });
     Failed {
         what: format!("{count} of the tests in the browser failed"),
-        lines: lines.collect(),
+        lines: told_of(failed),
     }
+}
+
+/// What the tests of some files that failed say, under the name of each.
+fn told_of(failed: &[Ended]) -> Vec<String> {
+    let of_one = |ended: &Ended| {
+        let told = telling::of_node(&ended.output).into_iter();
+        let told = told.map(|line| format!("  {line}"));
+        std::iter::once(ended.file.clone())
+            .chain(told)
+            .collect::<Vec<_>>()
+    };
+    failed.iter().flat_map(of_one).collect()
 }
 
 fn sum(passed: &[Ended]) -> Result<Counts> {
@@ -245,7 +258,13 @@ mod tests {
             skipped: 2,
         };
         let words = "1 passed at the second attempt: chance.test.mjs: by chance";
-        assert_eq!(said, Said::from(counts).with_words(words.into()));
+        let lines = [
+            "chance.test.mjs",
+            "  ✖ by chance (3.5ms)",
+            "      Error: not so",
+        ];
+        let wanted = Said::from(counts).with_words(words.into(), lines.map(str::to_owned).into());
+        assert_eq!(said, wanted);
     }
 
     #[test]
