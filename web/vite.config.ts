@@ -13,5 +13,6 @@ export default defineConfig(({ mode }) => ({
   oxc: { jsx: { runtime: 'automatic' as const, importSource: 'preact' } },
   ...(mode === 'embedded' ? {} : { worker: { format: 'es' as const } }),
   build: { target: 'es2022', assetsInlineLimit: 0 },
-  test: { include: ['tests/**/*.test.ts'], environment: 'node' as const },
+  // Each file in a thread of its own, which begins sooner than a process.
+  test: { include: ['tests/**/*.test.ts'], environment: 'node' as const, pool: 'threads' as const },
 }));

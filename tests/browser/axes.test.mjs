@@ -1,6 +1,6 @@
 /** Which way components lie in their files: found from the shape, said by a person or a study, asked where nobody can tell. */
 import assert from 'node:assert/strict';
-import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import { exported } from './support/exporting.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import { plate, stlOf, trianglesOf } from './support/models.mjs';
@@ -29,7 +29,7 @@ pageTest('which way a component lies', async (page, t) => {
   await step(page, t, 'is a person’s word instead, which joint angles follow; undone, and done again', async () => {
     const before = await curve(page);
     await sayAxes(page, 'Femur', 'y', 'z');
-    assert.match(await axesText(page, 'Femur'), /As you said: y anterior, z superior, \u2212x lateral\./);
+    await axesSay(page, 'Femur', /As you said: y anterior, z superior, \u2212x lateral\./);
     const after = await until(() => curve(page), (label) => label !== before, 'the curve to change');
     await page.getByRole('button', { name: 'Undo: change the axes of the femur' }).click();
     await until(() => curve(page), (label) => label === before, 'the curve as before');
@@ -48,7 +48,7 @@ pageTest('which way a component lies', async (page, t) => {
     await page.keyboard.press('Escape');
     await drop(page, saved);
     await panel.waitForWords(page, /^Opened the session/);
-    assert.match(await axesText(page, 'Femur'), /As you said: y anterior/);
+    await axesSay(page, 'Femur', /As you said: y anterior/);
   });
 
   await step(page, t, 'the view in space has the arrows and looks along them', async () => {
@@ -57,13 +57,14 @@ pageTest('which way a component lies', async (page, t) => {
     const space = page.getByRole('region', { name: 'Models in space' });
     await space.getByText('x anterior, y superior, \u2212z lateral').waitFor();
     const canvas = space.getByRole('application');
-    const look = async (/** @type {string} */ from) => {
+    /** @type {Buffer | null} */
+    let before = null;
+    for (const from of ['Front', 'Side', 'Above']) {
       await space.getByRole('button', { name: from, exact: true }).click();
-      await drawn(page);
-      return canvas.screenshot();
-    };
-    const [front, side, above] = [await look('Front'), await look('Side'), await look('Above')];
-    assert(!front.equals(side) && !side.equals(above), 'each side looks otherwise');
+      await atRest(page);
+      const last = before;
+      before = await until(() => canvas.screenshot(), (picture) => !last?.equals(picture), `another look from ${from}`);
+    }
     await screenshot(page, 'axes space');
   });
 });
@@ -76,7 +77,7 @@ pageTest('files with axes of their own', async (page, t) => {
     await choose(page, await demoFile(framePath(1)), await demoFile('calibration.txt'), file('femur.stl', turned));
     await panel.waitForFrames(page, 1);
     await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('right');
-    assert.match(await axesText(page, 'Femur'), /Found from its shape: y anterior, z superior, x lateral\./);
+    await axesSay(page, 'Femur', /Found from its shape: y anterior, z superior, x lateral\./);
   });
 
   await step(page, t, 'a study file says which file is what, the side, and the axes; undone in one step', async () => {
@@ -84,11 +85,11 @@ pageTest('files with axes of their own', async (page, t) => {
     const [one, two] = [{ ...femur, name: 'part-1.stl' }, { ...tibia, name: 'part-2.stl' }];
     await drop(page, two, one, file('study.toml', study));
     await panel.waitForWords(page, /^Opened part-1\.stl as the model of the femur, part-2\.stl as the model of the tibia, the study my knee\.$/);
-    assert.equal(await page.getByRole('textbox', { name: 'Name of the study' }).inputValue(), 'my knee');
-    assert.equal(await page.getByRole('combobox', { name: 'Side of the body' }).inputValue(), 'left');
-    assert.match(await axesText(page, 'Tibia'), /As the study file says: \u2212x anterior, y superior, z lateral\./);
+    await until(() => page.getByRole('textbox', { name: 'Name of the study' }).inputValue(), (name) => name === 'my knee', 'the name of the study');
+    await until(() => page.getByRole('combobox', { name: 'Side of the body' }).inputValue(), (side) => side === 'left', 'the side of the body');
+    await axesSay(page, 'Tibia', /As the study file says: \u2212x anterior, y superior, z lateral\./);
     await page.getByRole('button', { name: 'Undo: read study.toml' }).click();
-    assert.match(await axesText(page, 'Tibia'), /Found from its shape: x anterior, y superior/);
+    await axesSay(page, 'Tibia', /Found from its shape: x anterior, y superior/);
   });
 
   await step(page, t, 'a study file that is wrong is told with its place, and the rest is opened', async () => {
@@ -115,12 +116,12 @@ pageTest('a tray whose front nobody can tell from its shape', async (page, t) =>
 
   await step(page, t, 'the answer is taken, and undone', async () => {
     const sheet = page.getByRole('dialog', { name: 'Tibia' });
-    const words = async () => /Found from its shape: (\S+) anterior, (\S+) superior/.exec(await sheet.innerText()) ?? [];
-    const [, anterior, superior] = await words();
+    const found = /Found from its shape: (\S+) anterior, (\S+) superior/;
+    const [, anterior, superior] = found.exec(await says(sheet, found)) ?? [];
     await sheet.getByRole('group', { name: 'Which way is the front?' }).getByRole('button', { name: 'The other way' }).click();
     const other = anterior.startsWith('\u2212') ? anterior.slice(1) : `\u2212${anterior}`;
     await sheet.getByText(new RegExp(`As you said: ${other} anterior, ${superior} superior`)).waitFor();
-    assert.equal(await card.count(), 0);
+    await card.waitFor({ state: 'detached' });
     await page.keyboard.press('Escape');
     await page.keyboard.press('Control+z');
     await card.waitFor();
@@ -166,7 +167,7 @@ pageTest('what was done to a model', async (page, t) => {
     await card.getByRole('button', { name: 'It is in centimetres' }).waitFor();
     await card.getByRole('button', { name: 'It is in inches' }).click();
     await page.getByRole('button', { name: 'Femur: femur_mm.stl' }).waitFor();
-    assert.equal(await card.getByRole('button', { name: /^It is in/ }).count(), 0);
+    await until(() => card.getByRole('button', { name: /^It is in/ }).count(), (count) => count === 0, 'nothing more to be asked');
   });
 });
 
@@ -176,12 +177,11 @@ async function openAxes(page, component) {
   return page.getByRole('dialog', { name: component }).getByRole('region', { name: 'Axes' });
 }
 
-/** What is said of them once it is known. @param {Page} page @param {'Femur' | 'Tibia'} component */
-async function axesText(page, component) {
-  const axes = await openAxes(page, component);
-  const text = await until(() => axes.innerText(), (text) => !/being found/.test(text), 'the axes');
+/** Waits until that is said of them. @param {Page} page @param {'Femur' | 'Tibia'} component @param {RegExp} words */
+async function axesSay(page, component, words) {
+  await says(await openAxes(page, component), words);
   await page.keyboard.press('Escape');
-  return text;
+  await page.getByRole('dialog', { name: component }).waitFor({ state: 'hidden' });
 }
 
 /** @param {Page} page @param {'Femur' | 'Tibia'} component @param {string} anterior @param {string} superior */
@@ -191,6 +191,7 @@ async function sayAxes(page, component, anterior, superior) {
   await axes.getByRole('combobox', { name: 'Superior' }).selectOption(superior);
   await axes.getByRole('button', { name: 'Use these axes' }).click();
   await page.keyboard.press('Escape');
+  await page.getByRole('dialog', { name: component }).waitFor({ state: 'hidden' });
 }
 
 /** What the joint's curve says. @param {Page} page */

@@ -1,6 +1,6 @@
 /** Bad input: a sentence in the bottom line, and the work that was there is still there. */
 import assert from 'node:assert/strict';
-import { pageTest, screenshot, step } from './support/browser.mjs';
+import { pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import { dicom, jpeg, png, tiff } from './support/frames.mjs';
 import { femurLibrary } from './support/library.mjs';
@@ -64,7 +64,7 @@ pageTest('bad input', async (page, t) => {
     await stage.learn();
     await stage.trace(BOW_TIE);
     t.diagnostic(await panel.waitForWords(page, /cross/));
-    assert.equal(await panel.shownPose(page), null);
+    await until(() => panel.shownPose(page), (pose) => pose === null, 'no pose to be shown');
     await screenshot(page, 'crossing');
     await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
     await stillThere(page, stage, work);
@@ -93,7 +93,7 @@ async function begunWork(page, stage) {
 
 /** @param {Page} page @param {Stage} stage @param {Awaited<ReturnType<typeof begunWork>>} work */
 async function stillThere(page, stage, work) {
-  assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
+  await until(() => panel.cells(page), (cells) => cells.includes('Frame 1, femur: posed'), 'the pose to be there');
   await panel.waitForThePose(page, work.pose);
   await stage.looksLike(work.picture, 'the traced frame');
 }

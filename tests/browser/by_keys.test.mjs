@@ -1,9 +1,9 @@
 /** The whole work by the keyboard alone: from opening by way of first poses and the film to what is published. */
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { exportSheet } from './support/exporting.mjs';
-import { focused, tabTo } from './support/focus.mjs';
+import { hasFocus, tabTo } from './support/focus.mjs';
 import * as panel from './support/panel.mjs';
 import { trueOutline } from './support/study.mjs';
 import * as tracing from './support/tracing.mjs';
@@ -21,7 +21,7 @@ pageTest('by the keyboard alone', async (page, t) => {
     await page.keyboard.press('Enter');
     await panel.waitForFrames(page, FRAMES);
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
-    assert.match(await focused(page), /frame 1 of 8/);
+    await hasFocus(page, /frame 1 of 8/);
   });
   await step(page, t, 'points at both components', async () => {
     let at = /** @type {Point} */ ([512, 512]);
@@ -41,7 +41,7 @@ pageTest('by the keyboard alone', async (page, t) => {
     const isDone = (/** @type {string} */ cell) => /: followed(,|$)/.test(cell);
     await until(() => panel.cells(page), (cells) => cells.filter(isDone).length === 2 * (FRAMES - 1), 'the film to be followed');
     await atRest(page);
-    assert.match(await focused(page), /frame 1 of 8/, 'the focus stays');
+    await hasFocus(page, /frame 1 of 8/);
   });
   await step(page, t, 'looks at the joint', async () => {
     await page.keyboard.press('Shift+K');
@@ -49,7 +49,7 @@ pageTest('by the keyboard alone', async (page, t) => {
     await tabTo(page, 'Flexion');
     await page.keyboard.press('Enter');
     await page.getByRole('img', { name: /^Lift-off over flexion in 8 frames/ }).waitFor();
-    assert.equal(await focused(page), 'Flexion');
+    await hasFocus(page, 'Flexion');
   });
   await step(page, t, 'saves table, figure and film, and is back where it was', async () => {
     await tabTo(page, 'Export…');
@@ -63,8 +63,7 @@ pageTest('by the keyboard alone', async (page, t) => {
     assert((await saved(page)).length > 20_000);
     await screenshot(page, 'by the keyboard');
     await page.keyboard.press('Escape');
-    await drawn(page);
-    assert.equal(await focused(page), 'Export…');
+    await hasFocus(page, 'Export…');
   });
 });
 

@@ -1,6 +1,6 @@
 /** Calibration from a bead grid and from a ruler, and correction of distortion, by role and name. */
 import assert from 'node:assert/strict';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { drawn, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { distorted, ideal, plate, PLATE } from './support/plates.mjs';
@@ -23,18 +23,10 @@ async function fill(sheet, values) {
   for (const [name, value] of Object.entries(values)) await sheet.getByRole('spinbutton', { name }).fill(String(value));
 }
 
-/** The grey value at a place, as the status line says it. @param {Page} page @param {Stage} stage @param {[number, number]} place */
-async function greyAt(page, stage, place) {
-  await stage.hover(place);
-  await stage.readout();
-  const text = await page.getByRole('contentinfo', { name: 'Status' }).innerText();
-  return Number(/ px · (\d+)/.exec(text)?.[1]);
-}
-
 /** The pixel pitch that the sheet shows. @param {import('playwright-core').Locator} sheet */
 async function pitch(sheet) {
   await drawn(sheet.page());
-  const text = await sheet.getByRole('group', { name: 'Camera' }).innerText();
+  const text = await says(sheet.getByRole('group', { name: 'Camera' }), /Pixel pitch [\d.]+/);
   return Number(/Pixel pitch ([\d.]+)/.exec(text)?.[1]);
 }
 
@@ -46,7 +38,7 @@ const OUTER = /** @type {const} */ ([9, -8]);
 
 pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
   const stage = new Stage(page);
-  const said = (/** @type {RegExp} */ words) => until(() => sheetOf(page).innerText(), (text) => words.test(text), `the sheet to say ${words}`);
+  const said = (/** @type {RegExp} */ words) => says(sheetOf(page), words);
 
   await step(page, t, 'the beads are found and the distortion is told', async (t) => {
     await choose(page, plate('plate.png'));
@@ -64,11 +56,10 @@ pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
   });
 
   await step(page, t, 'undistorted frames show beads where a regular lattice has them', async () => {
-    const before = await greyAt(page, stage, distorted(ideal(...OUTER)));
-    assert(before < 100, `a bead is dark where it was taken: ${before}`);
+    await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey < 100, 'a bead to be dark where it was taken');
     await sheetOf(page).getByRole('button', { name: 'Undistort the frames' }).click();
     await said(/In use on frames/);
-    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey > 100, 'the bead to leave its distorted place');
+    await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey > 100, 'the bead to leave its distorted place');
     await screenshot(page, 'calibrate undistorted');
   });
 
@@ -79,7 +70,7 @@ pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
     t.diagnostic(`pixel pitch ${found} mm`);
     // The undistorted picture is as large as the distorted one on the whole, so a little larger than the ideal one.
     assert(Math.abs(found / TRUE_PITCH - 1) < 0.05, `${found} for about ${TRUE_PITCH}`);
-    assert.match(await sheet.getByRole('group', { name: 'Camera' }).innerText(), /A plate this level .* does not show it/);
+    await says(sheet.getByRole('group', { name: 'Camera' }), /A plate this level .* does not show it/);
     await sheet.getByRole('button', { name: 'Use as calibration' }).click();
     await page.getByRole('button', { name: 'Calibration: grid in plate.png' }).waitFor();
   });
@@ -89,12 +80,12 @@ pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
     const saved = await downloaded(page, 'Save the correction (.json)');
     assert.equal(JSON.parse(saved.buffer.toString()).kind, 'fluoropose-distortion');
     await sheet.getByRole('button', { name: 'Take the correction away' }).click();
-    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
     await page.getByRole('button', { name: 'Undo: take the correction of distortion away' }).click();
     await said(/In use on frames/);
     await page.getByRole('button', { name: /^Undo: change the calibration/ }).click();
     await page.getByRole('button', { name: /^Undo: correct the distortion/ }).click();
-    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
     await choose(page, saved);
     await panel.waitForWords(page, /Opened the correction of distortion|shown undistorted/);
     await said(/In use on frames/);
@@ -104,7 +95,7 @@ pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
     const sheet = sheetOf(page);
     await sheet.getByRole('button', { name: 'Undistort outlines only' }).click();
     await said(/In use on outlines/);
-    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
+    await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
   });
 });
 
@@ -149,7 +140,7 @@ pageTest('a ruler: two marks and their length', async (page, t) => {
   await step(page, t, 'lengths that cannot be are refused in words', async () => {
     const sheet = sheetOf(page);
     await fill(sheet, { 'Source to ruler (mm)': 1300 });
-    await until(() => sheet.getByRole('alert').innerText(), (text) => /the object must lie between them/.test(text), 'the refusal');
+    await says(sheet.getByRole('alert'), /the object must lie between them/);
     await fill(sheet, { 'Source to ruler (mm)': 1000 });
     await sheet.getByRole('button', { name: 'Use as calibration' }).click();
     await page.getByRole('button', { name: 'Calibration: ruler in ruler.png' }).waitFor();

@@ -1,7 +1,8 @@
 /** Kept in the browser: a tab that dies in the middle of a trace comes back with everything. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ADDRESS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
+import { isDeepStrictEqual } from 'node:util';
+import { ADDRESS, atRest, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
 import { evict } from './support/eviction.mjs';
 import { exported, openExport } from './support/exporting.mjs';
 import { choose, temporaryFolder } from './support/files.mjs';
@@ -40,7 +41,6 @@ crashTest('a tab that crashes in the middle of a trace', async (page, t) => {
     tab.send('Page.crash').catch(() => undefined);
     await crashed;
     next = await page.context().newPage();
-    next.setDefaultTimeout(PATIENCE);
     await next.goto(ADDRESS);
     assert(work);
     await hasEverything(next, work);
@@ -114,7 +114,7 @@ test('storage that is cleared under work that came back from it', { timeout: 3 *
     await second.kill();
     const again = await (await startBrowser(profile)).page();
     await panel.waitForFrames(again, FRAMES);
-    assert.equal(await noteField(again).inputValue(), NOTE);
+    await hasNote(noteField(again), NOTE);
     const session = JSON.parse((await exported(again, 'Session')).buffer.toString());
     assert.deepEqual(session.files.map((/** @type {{ base64: string }} */ { base64 }) => base64), originals.map(({ buffer }) => buffer.toString('base64')));
   });
@@ -136,7 +136,7 @@ pageTest('two tabs', async (page, t) => {
     await note(other, 'of the second tab');
     for (const [tab, words] of /** @type {const} */ ([[page, 'of the first tab'], [other, 'of the second tab']])) {
       await panel.waitUntilKept(tab);
-      assert.equal(await noteField(tab).inputValue(), words);
+      await hasNote(noteField(tab), words);
     }
   });
 
@@ -153,8 +153,8 @@ pageTest('two tabs', async (page, t) => {
     const again = await context.newPage();
     await again.goto(ADDRESS);
     await panel.waitForFrames(again, 1);
-    assert.equal(await noteField(again).inputValue(), 'of the second tab');
-    assert.equal(await noteField(page).inputValue(), 'of the first tab');
+    await hasNote(noteField(again), 'of the second tab');
+    await hasNote(noteField(page), 'of the first tab');
   });
 });
 
@@ -198,8 +198,7 @@ async function begin(page) {
   await panel.waitForFrames(page, FRAMES);
   await choose(page, await demoFile('femur.jts'));
   await cell(page, 'Frame 2, femur: pose loaded').click();
-  await drawn(page);
-  const pose = await panel.shownPose(page);
+  const pose = await until(() => panel.shownPose(page), (shown) => shown !== null, 'the pose that was loaded');
   await page.keyboard.press('y');
   await note(page, NOTE, 'Note on frame 2, femur');
   await cell(page, 'Frame 2, tibia: empty').click();
@@ -212,7 +211,7 @@ async function begin(page) {
   await stage.hover(ELSEWHERE);
   await panel.waitForWords(page, /^3 points\./);
   await panel.waitUntilKept(page);
-  assert(pose);
+  assert(pose, 'the pose was shown');
   return { pose, cells: await panel.cells(page) };
 }
 
@@ -221,7 +220,7 @@ async function hasEverything(page, work) {
   await panel.waitForFrames(page, FRAMES);
   await panel.waitForWords(page, /is back as it was at/);
   await page.getByRole('application', { name: /frame 3 of 3, tracing the tibia/ }).waitFor();
-  assert.deepEqual(await panel.cells(page), work.cells);
+  await until(() => panel.cells(page), (cells) => isDeepStrictEqual(cells, work.cells), 'the cells to be as they were');
   await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'the files to be back');
   const stage = new Stage(page);
   await stage.learn();
@@ -232,7 +231,7 @@ async function hasEverything(page, work) {
   await panel.waitForWords(page, /^3 points\./);
   await cell(page, 'Frame 2, femur: pose loaded, checked').click();
   await panel.waitForThePose(page, work.pose);
-  assert.equal(await page.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), NOTE);
+  await hasNote(page.getByRole('textbox', { name: 'Note on frame 2, femur' }), NOTE);
   await page.getByRole('button', { name: 'Calibration: calibration.txt' }).waitFor();
   await cell(page, 'Frame 3, tibia: draft').click();
   await drawn(page);
@@ -246,7 +245,7 @@ pageTest('what is kept is deleted from the empty page by two clicks', async (pag
   await page.getByRole('region', { name: 'Earlier work in this browser' }).waitFor({ state: 'detached' });
   await page.reload();
   await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
-  await drawn(page);
+  await atRest(page);
   assert.equal(await page.getByRole('region', { name: 'Earlier work in this browser' }).count(), 0);
 });
 
@@ -289,6 +288,11 @@ async function note(page, words, name = 'Note on frame 1, femur') {
 /** @param {Page} page */
 function noteField(page) {
   return page.getByRole('textbox', { name: 'Note on frame 1, femur' });
+}
+
+/** @param {import('playwright-core').Locator} field @param {string} words */
+function hasNote(field, words) {
+  return until(() => field.inputValue(), (text) => text === words, `the note "${words}"`);
 }
 
 /** Waits for what the top bar says of saving. @param {Page} page @param {RegExp} words */

@@ -1,6 +1,6 @@
 /** Tools that find the edges themselves: threshold, live-wire, snap, and shaping what they found. */
 import assert from 'node:assert/strict';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { drawn, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { polygonWithin, trueOutline, truePose } from './support/study.mjs';
@@ -110,7 +110,7 @@ async function shape(page) {
   await tracing.strip(page).getByRole('button', { name: 'Shape the outline' }).click();
   const sheet = page.getByRole('dialog', { name: 'Shape' });
   await sheet.getByRole('slider', { name: 'Simplify within' }).fill('2');
-  const text = await until(() => sheet.innerText(), (words) => /\d+ points become \d+\. The shape moves by [\d.]+ px at most/.test(words), 'the error');
+  const text = await says(sheet, /\d+ points become \d+\. The shape moves by [\d.]+ px at most/);
   const [, before, after, greatest] = /(\d+) points become (\d+)\. The shape moves by ([\d.]+) px/.exec(text) ?? [];
   assert(Number(after) < Number(before) && Number(greatest) <= 2, text);
   await screenshot(page, 'shape sheet');

@@ -1,6 +1,7 @@
 /** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
 import assert from 'node:assert/strict';
 import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { Calls, PRESS } from './support/calls.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline, truePose } from './support/study.mjs';
@@ -9,8 +10,8 @@ import * as tracing from './support/tracing.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 const FRAMES = 8;
-/** Calls of the workers that follow, beside the one that finds poses. */
-const OF_FOLLOWERS = ['begin', 'look', 'seeSides', 'sides', 'conclude', 'openSearch', 'readFilm', 'lookFilm'];
+/** Frames that are looked at until a test goes on: the film is not done sooner than it looks. */
+const LOOK_AT_FEW = { method: 'look', most: 6 };
 /** The frame may have to be decoded; one call may be under way. */
 const MOST_BEFORE_A_CLICK = 2;
 
@@ -41,15 +42,17 @@ if (!IN_FIREFOX) {
     assert.match(await panel.verdict(page), /^Doubtful/);
     await page.keyboard.press('o');
     await step(page, t, 'a doubtful pose is looked at and accepted by keys', () => checked(page, t));
+    const calls = await Calls.of(page, LOOK_AT_FEW);
     await page.keyboard.press('Shift+G');
-    await page.getByRole('progressbar', { name: /^Looking for the femur (beside the tibia )?in frame \d$/ }).waitFor();
+    await panel.waitForJob(page, /^Looking for the femur (beside the tibia )?in frame \d: /);
     const found = await until(() => panel.cells(page), (cells) => cells.some((cell) => /femur: posed/.test(cell)), 'the femur to be found');
     t.diagnostic(found.find((cell) => /femur: posed/.test(cell)) ?? '');
     await until(() => panel.cells(page), (cells) => cells.some((cell) => /femur: followed so far/.test(cell)), 'it to be followed from there');
     await page.keyboard.press('Shift+G');
+    await calls.letGo();
     const said = await panel.waitForWords(page, /^Stopped: \d+ poses? found/);
-    const cells = await panel.cells(page);
-    assert.equal(cells.filter((cell) => /: followed(,|$)/.test(cell)).length, Number(/\d+/.exec(said)?.[0]), `${said}; ${cells.join('; ')}`);
+    await waitForFollowed(page, Number(/\d+/.exec(said)?.[0]));
+    assert.equal((await panel.cells(page)).filter((cell) => /so far/.test(cell)).length, 0, 'nothing is left of what was not kept');
   });
 }
 
@@ -82,14 +85,16 @@ async function twoClicks(page) {
 /** @param {Page} page @param {import('node:test').TestContext} t */
 async function followed(page, t) {
   const count = (/** @type {readonly string[]} */ cells, /** @type {RegExp} */ pattern) => cells.filter((cell) => pattern.test(cell)).length;
+  const calls = await Calls.of(page, LOOK_AT_FEW);
   await card(page).getByRole('button', { name: 'Follow the film' }).click();
   await until(() => panel.cells(page), (cells) => count(cells, /: followed so far/) > 0, 'cells to fill');
+  await calls.letGo();
   const done = await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) > 0, 'the film to be followed');
   t.diagnostic(done.join('; '));
   assert.equal(count(done, /: followed(,|$)/), 2 * (FRAMES - 1), done.join('; '));
   assert.equal(count(done, /so far/), 0);
   await atRest(page);
-  assert.deepEqual(page.workers().filter((worker) => /follow/.test(worker.url())), [], 'what a film needed is let go');
+  await until(async () => page.workers().filter((worker) => /follow/.test(worker.url())).length, (count) => count === 0, 'what a film needed to be let go');
   await page.getByRole('radio', { name: 'Femur' }).click();
   for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
   await atRest(page);
@@ -99,7 +104,7 @@ async function followed(page, t) {
   await page.keyboard.press('Control+z');
   await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
   await page.keyboard.press('Control+y');
-  await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) === 2 * (FRAMES - 1), 'all of it to be back');
+  await waitForFollowed(page, 2 * (FRAMES - 1));
 }
 
 /** Nothing of the film goes before a click: the worker that finds poses gets it next, and answers before the film is followed. @param {Page} page @param {import('node:test').TestContext} t */
@@ -110,31 +115,25 @@ async function clickedMeanwhile(page, t) {
   await atRest(page);
   const stage = new Stage(page);
   await stage.learn();
-  const asked = await callsOfWorkers(page);
+  // What follows the film waits for its frames: the click does not.
+  const calls = await Calls.of(page, LOOK_AT_FEW);
   await page.keyboard.press('Shift+G');
   await until(() => panel.cells(page), (cells) => cells.some((cell) => /: followed so far/.test(cell)), 'cells to fill');
-  const before = (await asked()).length;
   await stage.click(tracing.insideOf(await trueOutline('femur', 5)));
   await until(() => panel.cells(page), (cells) => cells.some((cell) => /^Frame 5, femur: posed/.test(cell)), 'the click to be answered');
-  const since = (await asked()).slice(before).filter((method) => !OF_FOLLOWERS.includes(method));
+  const seen = await calls.seen();
+  const since = seen.slice(seen.lastIndexOf(PRESS) + 1);
   t.diagnostic(`calls from the click to its pose: ${since.join(', ')}`);
   assert(since.slice(0, 1 + MOST_BEFORE_A_CLICK).includes('oneClick'), since.join(', '));
   assert(await page.getByRole('progressbar', { name: /film/ }).count(), 'the film is still followed');
-  await until(() => panel.cells(page), (cells) => cells.filter((cell) => /: followed(,|$)/.test(cell)).length === 2 * (FRAMES - 1) - 1, 'the film to be followed');
+  await calls.letGo();
+  await waitForFollowed(page, 2 * (FRAMES - 1) - 1);
   assert((await panel.cells(page)).some((cell) => /^Frame 5, femur: posed/.test(cell)), 'what a person set stays');
 }
 
-/** Calls that workers get from now on, in their order. @param {Page} page @returns {Promise<() => Promise<string[]>>} */
-async function callsOfWorkers(page) {
-  await page.evaluate(() => {
-    const [own, calls] = [Worker.prototype.postMessage, /** @type {string[]} */ ([])];
-    Worker.prototype.postMessage = /** @this {Worker} @param {any} message @param {any} transfer */ function (message, transfer) {
-      if (message?.type === 'call') calls.push(message.method);
-      own.call(this, message, transfer);
-    };
-    Object.assign(window, { callsOfWorkers: calls });
-  });
-  return () => page.evaluate(() => /** @type {any} */ (window).callsOfWorkers);
+/** @param {Page} page @param {number} count */
+function waitForFollowed(page, count) {
+  return until(() => panel.cells(page), (cells) => cells.filter((cell) => /: followed(,|$)/.test(cell)).length === count, `${count} cells to be followed`);
 }
 
 /** @param {Page} page @param {import('node:test').TestContext} t */
@@ -143,8 +142,8 @@ async function checked(page, t) {
   const doubt = page.getByRole('region', { name: 'A doubtful pose' });
   await doubt.getByText(/^Doubtful 1 of \d+$/).waitFor();
   const rivals = doubt.getByRole('radiogroup', { name: 'Poses to choose from' });
-  assert((await rivals.getByRole('radio').count()) >= 2, 'the worst has a rival');
-  assert.match((await rivals.getByRole('radio').first().getAttribute('aria-label')) ?? '', /^Pose 1, chosen: no joint angles/);
+  await until(() => rivals.getByRole('radio').count(), (count) => count >= 2, 'the worst to have a rival');
+  await rivals.getByRole('radio', { name: /^Pose 1, chosen: no joint angles/ }).waitFor();
   await screenshot(page, 'check');
   await page.setViewportSize({ width: 1024, height: 700 });
   for (const part of ['.check-why', '.check-picture']) await doubt.locator(part).first().waitFor();

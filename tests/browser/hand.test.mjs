@@ -122,9 +122,9 @@ async function typed(page) {
   const x = page.getByRole('spinbutton', { name: 'x (mm)', exact: true });
   await x.fill('12.5');
   await x.press('Enter');
-  assert.equal((await numbers(page)).x, 12.5);
+  await until(() => numbers(page), ({ x }) => x === 12.5, 'the x that was typed');
   await x.press('ArrowUp');
-  assert.equal((await numbers(page)).x, 13.5);
+  await until(() => numbers(page), ({ x }) => x === 13.5, 'an x of one more');
   const z = page.getByRole('spinbutton', { name: 'z (mm)', exact: true });
   const before = await numbers(page);
   await z.fill('20');
@@ -168,8 +168,7 @@ async function undone(page) {
     return loaded();
   }, (count) => count > 0, 'the loaded pose');
   await page.keyboard.press('Control+y');
-  await drawn(page);
-  assert.equal(await loaded(), 0, 'redo takes the model in hand again');
+  await until(loaded, (count) => count === 0, 'redo to take the model in hand again');
   await page.keyboard.press('Control+z');
 }
 
@@ -247,7 +246,7 @@ async function session(page) {
   await page.keyboard.press('ArrowRight');
   await page.getByRole('button', { name: 'Done' }).click();
   await page.getByRole('button', { name: 'Done' }).waitFor({ state: 'detached' });
-  assert.notEqual((await panel.shownPose(page))?.x, before?.x);
+  await until(() => panel.shownPose(page), (pose) => pose?.x !== before?.x, 'another x');
   await drop(page, saved);
   await panel.waitForWords(page, /^Opened the session/);
   await panel.waitForThePose(page, /** @type {Pose} */ (before));

@@ -1,8 +1,10 @@
 /** How the joint moves: curves with their numbers, what they wait for, and the table, by keys and by names alone. */
 import assert from 'node:assert/strict';
+import { isDeepStrictEqual } from 'node:util';
 import { bringAxe, isAccessible } from './support/axe.mjs';
 import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { exportSheet, openExport, savedFile, slowPictures } from './support/exporting.mjs';
+import { Calls } from './support/calls.mjs';
+import { exportSheet, openExport, savedFile } from './support/exporting.mjs';
 import { choose, file } from './support/files.mjs';
 import { leftKnee } from './support/joint.mjs';
 import { unzipped } from './support/masks.mjs';
@@ -54,6 +56,7 @@ pageTest('the joint', async (page, t) => {
     const still = await shownNow();
     // Some frames of the film: nothing can be waited for that does not come.
     await page.waitForTimeout(300);
+    await atRest(page);
     assert.equal(await shownNow(), still);
   });
   await step(page, t, 'runs over time and flexion, and one curve can be alone', () => overs(page));
@@ -118,7 +121,7 @@ async function leads(page, truth) {
   await page.mouse.move(box.x, box.y - 300);
   await page.keyboard.press('f');
   await until(() => joint(page).getByRole('status', { name: `Flexion in frame ${GAP}` }).count(), (count) => count === 1, 'the frame without a tibia');
-  assert.equal(await shown(page, 'Flexion', GAP), '–');
+  await until(() => shown(page, 'Flexion', GAP), (text) => text === '–', 'no number in the gap');
 }
 
 /** @param {Page} page */
@@ -155,11 +158,12 @@ async function saved(page, truth) {
   await joint(page).getByRole('button', { name: 'Export…' }).press('Enter');
   const sheet = exportSheet(page);
   await sheet.getByRole('region', { name: 'Preview' }).waitFor();
-  assert.deepEqual(await sheet.getByRole('listitem').allInnerTexts(), [
+  const faults = [
     '1 frame without a pose; they stay empty: 4',
     '7 frames with a pose from a file, which does not say how it was found: 1–3, 5–8',
     '7 frames that nobody has checked: 1–3, 5–8',
-  ]);
+  ];
+  await until(() => sheet.getByRole('listitem').allInnerTexts(), (texts) => isDeepStrictEqual(texts, faults), faults.join('; '));
   await screenshot(page, 'export joint');
   checkTable(await savedFile(page), truth);
   await openExport(page, 'Figure');
@@ -201,12 +205,12 @@ async function otherForms(page) {
 /** Nothing is written, and the page says so. @param {Page} page */
 async function calledOff(page) {
   const sheet = await openExport(page, 'Overlay film', 'PNG series');
-  // Eight pictures are written in a moment, sooner than a slow machine finds the button: each waits for a second here.
-  await slowPictures(page, 1000);
+  // Eight pictures are written in a moment, sooner than a slow machine finds the button: the second one waits.
+  const calls = await Calls.of(page, { method: 'add', most: 1 });
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
   await page.getByRole('button', { name: 'Cancel: Writing the film' }).click();
   await panel.waitForWords(page, /^Called off: \S+ was not written/);
-  await page.evaluate(() => void Reflect.get(window, 'atOnce')());
+  await calls.letGo();
 }
 
 /** @param {Page} page @param {...string} choices */

@@ -1,7 +1,8 @@
 /** A film of many frames: curves and their numbers, and a film of overlays that tells how far it is and can be called off. */
 import assert from 'node:assert/strict';
 import { pageTest, step, until } from './support/browser.mjs';
-import { exportSheet, openExport, slowPictures } from './support/exporting.mjs';
+import { Calls } from './support/calls.mjs';
+import { exportSheet, openExport } from './support/exporting.mjs';
 import { joint, openLongFilm } from './support/long_film.mjs';
 import * as panel from './support/panel.mjs';
 
@@ -31,8 +32,8 @@ pageTest('a long film', async (page, t) => {
 async function calledOff(page) {
   const sheet = await openExport(page, 'Overlay film', 'PNG series');
   await sheet.getByRole('img', { name: 'Preview' }).waitFor();
-  // All of them may be written in two seconds, sooner than a busy machine asks twice how far it is.
-  await slowPictures(page, 100);
+  // All of them may be written in two seconds, sooner than a busy machine asks twice how far it is: most of them wait.
+  const calls = await Calls.of(page, { method: 'add', most: 3 });
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
   const job = page.getByRole('button', { name: 'Cancel: Writing the film' });
   await job.waitFor();
@@ -43,8 +44,10 @@ async function calledOff(page) {
     for (let frames = 0; frames < 3; frames++) await new Promise((resolve) => requestAnimationFrame(resolve));
   });
   assert.equal(await job.count(), 1, 'three screen frames, and the film is not yet written');
+  await calls.allow(3);
   await until(count, (done) => done > first, 'more pictures');
   await job.click();
   await panel.waitForWords(page, /^Called off: \S+ was not written/);
+  await calls.letGo();
   assert.equal(await exportSheet(page).count(), 1);
 }

@@ -1,6 +1,6 @@
 /** One's own data: a frame, a calibration and a model as files, no demonstration. */
 import assert from 'node:assert/strict';
-import { pageTest, step, until, visit } from './support/browser.mjs';
+import { pageTest, says, step, until, visit } from './support/browser.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
@@ -36,15 +36,15 @@ translation
 
 pageTest('own files to a pose', async (page, t) => {
   const stage = new Stage(page);
-  const needs = () => page.getByRole('region', { name: 'Pose numbers' }).innerText();
+  const needs = page.getByRole('region', { name: 'Pose numbers' });
 
   await step(page, t, 'the page says what is missing, file by file', async () => {
     await drop(page, await demoFile(framePath(FRAME)));
     await panel.waitForFrames(page, 1);
-    await until(needs, (text) => /For a pose: a calibration, a model .* outline/.test(text), 'what is missing');
+    await says(needs, /For a pose: a calibration, a model .* outline/);
     await choose(page, { ...(await demoFile('calibration.txt')), name: 'C-arm 2.txt' });
     await page.getByRole('button', { name: 'Calibration: C-arm 2.txt' }).waitFor();
-    await until(needs, (text) => /For a pose: a model .* outline/.test(text), 'what is still missing');
+    await says(needs, /For a pose: a model .* outline/);
   });
 
   await step(page, t, 'a library that is being built can be called off', async () => {
@@ -62,15 +62,15 @@ pageTest('own files to a pose', async (page, t) => {
     });
     await choose(page, { ...(await demoFile('femur.stl')), name: 'size 4.stl' });
     await panel.waitForWords(page, /called off/);
-    assert.equal(await page.getByRole('progressbar').count(), 0);
+    await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'nothing to be under way');
   });
 
   await step(page, t, 'and built when asked for', async (t) => {
     await page.getByRole('button', { name: /^Femur: size 4\.stl/ }).click();
     const sheet = page.getByRole('dialog', { name: 'Femur' });
     await sheet.getByRole('button', { name: 'Build the library' }).click();
-    await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    const ready = await until(() => sheet.innerText(), (text) => /Library: 10368 views/.test(text), 'the library');
+    await panel.waitForJob(page, /^Femur library: /);
+    const ready = await says(sheet, /Library: 10368 views/);
     t.diagnostic(/Library: .* s\./.exec(ready)?.[0] ?? ready);
     await sheet.getByRole('button', { name: 'Close Femur' }).click();
   });
@@ -90,11 +90,11 @@ pageTest('own files to a pose', async (page, t) => {
   await step(page, t, 'a click finds what stands farther away than knees do', (t) => farAway(page, t));
 });
 
-/** @param {import('playwright-core').Page} page @param {() => Promise<string>} shown @param {import('node:test').TestContext} t */
+/** @param {import('playwright-core').Page} page @param {import('playwright-core').Locator} shown @param {import('node:test').TestContext} t */
 async function byCameraMatrix(page, shown, t) {
   await choose(page, file('cube.txt', cameraMatrix(FOCAL)));
   await page.getByRole('button', { name: 'Calibration: cube.txt' }).waitFor();
-  await until(shown, (text) => !/Found with another/.test(text) && /refined/.test(text), 'a pose by the new camera');
+  await until(() => shown.innerText(), (text) => !/Found with another/.test(text) && /refined/.test(text), 'a pose by the new camera');
   const pose = await panel.waitForPose(page);
   const truth = await truePose('femur', FRAME);
   t.diagnostic(panel.differences(pose, truth));
@@ -129,8 +129,8 @@ async function windowOfViews(page) {
   await sheet.getByLabel('Nominal x (°)').fill('5');
   await sheet.getByText('1271 views').waitFor();
   await sheet.getByRole('button', { name: 'Use these views' }).click();
-  await until(() => sheet.innerText(), (text) => /Library: 1271 views/.test(text), 'the library');
+  await says(sheet, /Library: 1271 views/);
   await sheet.getByRole('radio', { name: 'All directions' }).click();
   await sheet.getByRole('button', { name: 'Use these views' }).click();
-  await until(() => sheet.innerText(), (text) => /Library: 10368 views/.test(text), 'the library of all directions');
+  await says(sheet, /Library: 10368 views/);
 }

@@ -48,7 +48,7 @@ pageTest('what is published', async (page, t) => {
     await panel.waitForFrames(page, FRAMES);
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
     await atRest(page);
-    assert.equal(await next(), before);
+    await until(next, (step) => step === before, `${before} to be next`);
     const again = await exported(page, 'Session', 'With images and models');
     const documentOf = (/** @type {FileToOpen} */ { buffer }) => JSON.parse(buffer.toString()).document;
     assert.deepEqual(documentOf(again), documentOf(session));

@@ -40,9 +40,9 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
 
   await step(page, t, 'a number is copied with all its decimals', async () => {
     await page.getByRole('button', { name: /^x rotation / }).click();
-    const copied = await page.evaluate(() => navigator.clipboard.readText());
     const rows = readJts(saved[0].buffer.toString());
-    assert(rows.some(({ xRot }) => xRot === Number(copied)), `${copied} is the x rotation of no row`);
+    const copied = () => page.evaluate(() => navigator.clipboard.readText());
+    await until(copied, (text) => rows.some(({ xRot }) => xRot === Number(text)), 'the x rotation of a row');
   });
 
   await step(page, t, 'a session is saved', async () => saved.push(await savedSession(page, stage, traced)));
@@ -117,10 +117,10 @@ async function checkRows(rows, traced) {
 
 /** @param {Page} page @param {Stage} stage @param {Traced} traced */
 async function sameWork(page, stage, traced) {
-  const femur = (await panel.cells(page)).filter((name) => name.includes('femur'));
-  assert.deepEqual(femur, ['Frame 1, femur: empty', 'Frame 2, femur: posed', 'Frame 3, femur: posed']);
-  for (const [name, value] of Object.entries(DISPLAY)) assert.equal(await panel.slider(page, name), value);
-  assert.equal(await page.getByRole('textbox', { name: 'Name of the study' }).inputValue(), NAME);
+  const femur = async () => (await panel.cells(page)).filter((name) => name.includes('femur'));
+  await until(femur, (cells) => cells.join('; ') === 'Frame 1, femur: empty; Frame 2, femur: posed; Frame 3, femur: posed', 'the cells to be as they were');
+  for (const [name, value] of Object.entries(DISPLAY)) await until(() => panel.slider(page, name), (now) => now === value, `a ${name} of ${value}`);
+  await until(() => page.getByRole('textbox', { name: 'Name of the study' }).inputValue(), (name) => name === NAME, 'the name of the study');
   await panel.waitUntilKept(page);
   for (const { frame, pose, picture } of traced) {
     await goTo(page, frame);

@@ -84,6 +84,7 @@ function isCovered(column, row) {
 async function isClearBehind(page) {
   const stage = new Stage(page);
   await stage.learn();
+  await atRest(page);
   const places = Array.from({ length: 12 }, (_, at) => (2 * Math.PI * at) / 12).flatMap((angle) =>
     [-8, 8].map((away) => {
       const [column, row] = [OPEN.column + (OPEN.radius + away) * Math.cos(angle), OPEN.row + (OPEN.radius + away) * Math.sin(angle)];

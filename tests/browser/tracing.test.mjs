@@ -19,8 +19,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
 
   await step(page, t, 'the demonstration opens, libraries are built with a count', async () => {
     await panel.openDemonstration(page);
-    await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    await until(() => page.getByRole('contentinfo').innerText(), (text) => /\d+ of 10368 views/.test(text), 'a count of views');
+    await panel.waitForJob(page, /^Femur library: .*\b\d+ of 10368 views/);
     await screenshot(page, 'building');
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
     assert.equal(await panel.shownPose(page), null);
@@ -33,7 +32,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     const truth = await truePose('femur', 1);
     t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}; ${await panel.unmatched(page)} px unmatched`);
     panel.assertNear(pose, truth, HAND_TRACED);
-    assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
+    await until(() => panel.cells(page), (cells) => cells.includes('Frame 1, femur: posed'), 'the cell to be posed');
     await handsOff(page);
     await screenshot(page, 'traced');
   });
@@ -63,6 +62,7 @@ async function dragUndoRedo(page, stage, outline) {
   await page.mouse.move(...stage.toPage([column, row + OFF]), { steps: 4 });
   const following = await panel.waitForOtherPose(page, before.pose);
   await page.mouse.up();
+  await atRest(page);
   assert.deepEqual(await panel.shownPose(page), following, 'letting go changes nothing');
   // The point stays selected, and looks it.
   await page.keyboard.press('Escape');

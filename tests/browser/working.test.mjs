@@ -1,6 +1,6 @@
 /** Going through the work: what is next, what was checked, flags and notes, the list. */
 import assert from 'node:assert/strict';
-import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
+import { drawn, pageTest, screenshot, step, until, visit } from './support/browser.mjs';
 import { exported } from './support/exporting.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
@@ -36,10 +36,8 @@ pageTest('working through a film', async (page, t) => {
     await visit(page);
     await drop(page, session);
     await panel.waitForFrames(page, 8);
-    const names = await panel.cells(page);
-    assert(names.includes('Frame 2, femur: pose loaded, flagged'), names.join('; '));
     await cell(page, 'Frame 2, femur: pose loaded, flagged').click();
-    assert.equal(await page.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), 'rim hidden');
+    await until(() => page.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), (text) => text === 'rim hidden', 'the note');
   });
 });
 
@@ -57,6 +55,7 @@ function cell(page, name) {
 /** @param {Page} page */
 async function cellsAreLarge(page) {
   const buttons = page.getByRole('table', { name: 'Frames and components' }).getByRole('button');
+  await drawn(page);
   for (const box of await buttons.evaluateAll((all) => all.map((button) => button.getBoundingClientRect().toJSON()))) {
     assert(box.width >= TARGET && box.height >= TARGET, `a cell of ${box.width} x ${box.height}`);
   }
@@ -87,7 +86,7 @@ async function marks(page) {
   await cell(page, 'Frame 2, femur: pose loaded').click();
   await page.keyboard.press('y');
   await cell(page, 'Frame 2, femur: pose loaded, checked').waitFor();
-  assert.equal(await page.getByRole('button', { name: 'Checked', exact: true }).getAttribute('aria-pressed'), 'true');
+  await page.getByRole('button', { name: 'Checked', exact: true, pressed: true }).waitFor();
   await page.keyboard.press('Shift+y');
   await cell(page, 'Frame 2, femur: pose loaded, checked, flagged').waitFor();
   await page.keyboard.press('Shift+j');
@@ -95,7 +94,7 @@ async function marks(page) {
   await until(() => note.evaluate((field) => field === document.activeElement), (focused) => focused, 'the note to be in hand');
   await page.keyboard.type('rim hidden');
   await page.keyboard.press('Enter');
-  assert.equal(await note.inputValue(), 'rim hidden');
+  await until(() => note.inputValue(), (text) => text === 'rim hidden', 'the note to be there');
   for (const left of ['pose loaded, checked, flagged', 'pose loaded, checked', 'pose loaded']) {
     await page.keyboard.press('Control+z');
     await cell(page, `Frame 2, femur: ${left}`).waitFor();
@@ -151,7 +150,7 @@ pageTest('a long film', async (page, t) => {
       const { left, right, top } = button.getBoundingClientRect();
       return left >= 0 && right <= innerWidth && document.elementFromPoint((left + right) / 2, top + 5) === button;
     };
-    for (const frame of [1, 30, 60]) assert(await cell(page, `Frame ${frame}, femur: empty`).evaluate(isInView), `frame ${frame}`);
+    for (const frame of [1, 30, 60]) await until(() => cell(page, `Frame ${frame}, femur: empty`).evaluate(isInView), (inView) => inView, `frame ${frame} to be in sight`);
     await cell(page, 'Frame 53, tibia: empty').click();
     await page.getByRole('application', { name: /frame 53 of 60, tracing the tibia/ }).waitFor();
     await screenshot(page, 'long film');

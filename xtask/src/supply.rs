@@ -192,9 +192,9 @@ fn npm(offline: bool) -> Vec<String> {
             command::tee_all(npm.current_dir(workspace::root().join("web")))
         });
         match asked {
-            Ok((true, _)) => println!("{what}: none at fault"),
+            Ok(told) if told.success => println!("{what}: none at fault"),
             // What npm could not ask it calls an error of its own; of what it asked, it says what it found.
-            Ok((false, said)) if !said.contains("npm error") => {
+            Ok(told) if !told.all().contains("npm error") => {
                 faults.push(format!("{what}: npm tells of some, above"))
             }
             Ok(_) => println!("skipped: {what} (the registry here does not tell)"),

@@ -83,7 +83,7 @@ class Copies(OnTheDemo):
             if method == "forkserver":
                 continue
             with multiprocessing.get_context(method).Pool(1) as pool:
-                theirs = pool.map_async(pose, given).get(timeout=60)
+                theirs = pool.map_async(pose, given).get(timeout=600)
             for own, other in zip(ours, theirs, strict=True):
                 self.assertEqual((own.pose, own.sd, own.status, own.rivals), (other.pose, other.sd, other.status, other.rivals))
 

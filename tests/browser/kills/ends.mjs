@@ -234,7 +234,6 @@ function begun(page, random, title) {
 /** Another tab of the same window. @param {Page} page @param {string} [address] */
 async function tab(page, address = ADDRESS) {
   const next = await page.context().newPage();
-  next.setDefaultTimeout(60_000);
   await next.goto(address);
   return next;
 }

@@ -55,12 +55,12 @@ export function browser() {
 }
 
 function launchChromium() {
-  return chromium.launch({ executablePath: setting('FLUOROPOSE_CHROMIUM'), args: ARGUMENTS });
+  return chromium.launch({ executablePath: setting('FLUOROPOSE_CHROMIUM'), args: ARGUMENTS, timeout: PATIENCE });
 }
 
 /** An ordinary Firefox, driven by the protocol that all browsers are to have in common. */
 function launchFirefox() {
-  return firefox.launch({ channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX') });
+  return firefox.launch({ channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX'), timeout: PATIENCE });
 }
 
 after(async () => (await launched)?.close());
@@ -123,9 +123,14 @@ async function freshPage() {
  */
 export async function openWindow(options = {}) {
   const context = await (await browser()).newContext({ viewport: WINDOW, ...CUSTOMARY, ...options });
-  const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
-  return page;
+  await prepare(context);
+  return context.newPage();
+}
+
+/** All tabs of a window are patient, and remember what their status lines have said. @param {import('playwright-core').BrowserContext} context */
+export async function prepare(context) {
+  context.setDefaultTimeout(PATIENCE);
+  await context.addInitScript(rememberWords);
 }
 
 /**
@@ -189,6 +194,27 @@ function isOf(host, url) {
   return url.startsWith(host) || url.startsWith('blob:') || url.startsWith('data:');
 }
 
+/**
+ * Runs in the page before anything else. News pass after some seconds, jobs end, and others take their place: whoever looks from outside may come after them on a busy machine.
+ * What was said before somebody did something is no answer to it.
+ */
+function rememberWords() {
+  const most = 1000;
+  /** @type {{ status: string[], jobs: string[] }} */
+  const said = (globalThis.saidSoFar = { status: [], jobs: [] });
+  const remember = (/** @type {string[]} */ words, /** @type {string | null | undefined} */ text) => {
+    if (!text || words.includes(text, -10)) return;
+    words.push(text);
+    if (words.length > most) words.shift();
+  };
+  for (const deed of ['keydown', 'pointerdown', 'drop', 'change']) addEventListener(deed, () => [said.status, said.jobs].forEach((words) => words.splice(0)), { capture: true });
+  const look = () => {
+    remember(said.status, document.querySelector('footer [role=status]')?.textContent);
+    for (const job of document.querySelectorAll('footer progress')) remember(said.jobs, `${job.ariaLabel}: ${job.parentElement?.textContent}`);
+  };
+  new MutationObserver(look).observe(document, { childList: true, characterData: true, subtree: true });
+}
+
 /** Without a style to hide the text cursor, which the page's policy would refuse. */
 export const AS_IT_IS = /** @type {const} */ ({ caret: 'initial' });
 
@@ -218,11 +244,22 @@ export async function screenshot(page, name, part) {
 export async function until(ask, wanted, what) {
   const end = Date.now() + PATIENCE;
   for (;;) {
+    const askedAt = performance.now();
     const answer = await ask();
     if (wanted(answer)) return answer;
     if (Date.now() > end) throw new Error(`waited in vain for ${what}; the last answer was ${JSON.stringify(answer)}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
+    // Asking keeps the page from what is waited for: most of the time it is left alone.
+    const pause = Math.min(LONGEST_PAUSE, Math.max(SHORTEST_PAUSE, 3 * (performance.now() - askedAt)));
+    await new Promise((resolve) => setTimeout(resolve, pause));
   }
+}
+
+/** Between two questions, ms. */
+const [SHORTEST_PAUSE, LONGEST_PAUSE] = [50, 500];
+
+/** What a part of the page says once that is what is wanted. @param {import('playwright-core').Locator} part @param {RegExp} pattern */
+export function says(part, pattern) {
+  return until(() => part.innerText(), (text) => pattern.test(text), `words like ${pattern}`);
 }
 
 /**

@@ -56,16 +56,3 @@ export async function exported(page, kind, ...choices) {
   await sheet.waitFor({ state: 'detached' });
   return saved;
 }
-
-/** Lets each picture of a film wait before a worker gets it; `atOnce` of the window sends them as before. @param {Page} page @param {number} ms */
-export async function slowPictures(page, ms) {
-  await page.evaluate((ms) => {
-    const own = Worker.prototype.postMessage;
-    const slow = /** @this {Worker} @param {any} message @param {any} transfer */ function (message, transfer) {
-      if (message?.method === 'add') setTimeout(() => own.call(this, message, transfer), ms);
-      else own.call(this, message, transfer);
-    };
-    Worker.prototype.postMessage = slow;
-    Object.assign(window, { atOnce: () => (Worker.prototype.postMessage = own) });
-  }, ms);
-}

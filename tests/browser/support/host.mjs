@@ -19,7 +19,7 @@ const TYPES = {
 
 /** @type {Host[]} */
 const hosts = [];
-after(() => Promise.all(hosts.map((host) => host.stop())));
+after(() => Promise.all(hosts.map((host) => host.end())));
 
 export class Host {
   /** @param {string} folder what is served @param {string} path under which, with slashes at both ends */
@@ -29,6 +29,7 @@ export class Host {
     this.port = 0;
     /** Paths that were asked for. @type {string[]} */
     this.asked = [];
+    this.isThere = false;
     /** @type {import('node:http').Server | null} */
     this.server = null;
     hosts.push(this);
@@ -40,20 +41,26 @@ export class Host {
 
   /** Begins, again at the same address. */
   async start() {
+    this.isThere = true;
+    if (this.server) return this;
     const server = createServer((request, response) => void this.#answer(request.url ?? '', response));
+    server.on('connection', (socket) => this.isThere || socket.destroy());
     await new Promise((resolve) => server.listen(this.port, '127.0.0.1', () => resolve(undefined)));
     this.port = /** @type {import('node:net').AddressInfo} */ (server.address()).port;
     this.server = server;
     return this;
   }
 
-  /** As a network cable pulled: nothing listens any more. */
-  async stop() {
-    const { server } = this;
-    this.server = null;
-    if (!server) return;
-    server.closeAllConnections();
-    await new Promise((resolve) => server.close(resolve));
+  /** As a network cable pulled: nobody is answered. The port stays taken, or others would take it meanwhile. */
+  stop() {
+    this.isThere = false;
+    this.server?.closeAllConnections();
+  }
+
+  /** For good. */
+  async end() {
+    this.stop();
+    await new Promise((resolve) => (this.server ? this.server.close(resolve) : resolve(undefined)));
   }
 
   /** @param {string} url @param {import('node:http').ServerResponse} response */

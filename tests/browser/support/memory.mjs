@@ -1,5 +1,6 @@
 /** What a page holds in memory: its own heap, those of its workers, and what WebAssembly has. Chromium only. */
 import assert from 'node:assert/strict';
+import { PATIENCE } from './browser.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('playwright-core').CDPSession} Session */
@@ -20,7 +21,7 @@ export class MemoryOf {
     /** @type {Ask} */
     this.page = (method, params) => session.send(/** @type {any} */ (method), /** @type {any} */ (params));
     session.on('Target.attachedToTarget', ({ sessionId, targetInfo }) => this.#workers.set(sessionId, { name: nameOf(targetInfo.url), ask: this.#asking(session, sessionId) }));
-    session.on('Target.detachedFromTarget', ({ sessionId }) => this.#workers.delete(sessionId));
+    session.on('Target.detachedFromTarget', ({ sessionId }) => this.#ended(sessionId));
     session.on('Target.receivedMessageFromTarget', ({ sessionId, message }) => {
       const answer = JSON.parse(message);
       this.#waiting.get(`${sessionId} ${answer.id}`)?.(answer);
@@ -47,13 +48,18 @@ export class MemoryOf {
     return { page: page.heap, workers: sum('heap'), wasm: page.wasm + sum('wasm'), buffers: page.buffers + sum('buffers'), count: workers.length, nodes, listeners: jsEventListeners, parts };
   }
 
+  /** One that ends answers no more. @param {string} sessionId */
+  #ended(sessionId) {
+    this.#workers.delete(sessionId);
+    for (const [key, answer] of [...this.#waiting]) if (key.startsWith(`${sessionId} `)) answer({ error: { message: 'it has ended' } });
+  }
+
   /** @param {Session} session @param {string} sessionId @returns {Ask} */
   #asking(session, sessionId) {
     return (method, params = {}) => {
       const id = ++this.#last;
       const answered = new Promise((resolve, reject) => {
-        // One that ends meanwhile answers no more.
-        const late = setTimeout(() => reject(new Error(`${method} is not answered`)), 20_000);
+        const late = setTimeout(() => reject(new Error(`${method} is not answered`)), PATIENCE);
         this.#waiting.set(`${sessionId} ${id}`, ({ result, error }) => {
           clearTimeout(late);
           this.#waiting.delete(`${sessionId} ${id}`);

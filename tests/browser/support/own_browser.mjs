@@ -5,7 +5,10 @@ import { readdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after } from 'node:test';
 import { chromium, firefox } from 'playwright-core';
-import { ADDRESS, ARGUMENTS, IN_FIREFOX, PATIENCE, setting, until } from './browser.mjs';
+import { ADDRESS, ARGUMENTS, IN_FIREFOX, PATIENCE, prepare, setting, until } from './browser.mjs';
+
+/** Part of what the driver starts its own browsers with: a busy machine is no reason to put a tab to sleep, and a container may have little shared memory. */
+const AS_THE_DRIVER = ['--disable-background-timer-throttling', '--disable-backgrounding-occluded-windows', '--disable-renderer-backgrounding', '--disable-hang-monitor', '--disable-dev-shm-usage'];
 
 /** @type {(() => Promise<void>)[]} */
 const running = [];
@@ -14,7 +17,7 @@ after(() => Promise.all(running.map((kill) => kill())));
 /** @param {string} profile a folder */
 export async function startBrowser(profile) {
   if (IN_FIREFOX) return startFirefox(profile);
-  const address = [...ARGUMENTS, '--headless=new', '--remote-debugging-port=0', `--user-data-dir=${profile}`, 'about:blank'];
+  const address = [...ARGUMENTS, ...AS_THE_DRIVER, '--headless=new', '--remote-debugging-port=0', `--user-data-dir=${profile}`, 'about:blank'];
   const child = spawn(setting('FLUOROPOSE_CHROMIUM'), address, { detached: true, stdio: 'ignore' });
   const gone = new Promise((resolve) => child.once('exit', resolve));
   // The whole group: a crash spares nobody.
@@ -24,12 +27,12 @@ export async function startBrowser(profile) {
   };
   running.push(kill);
   const port = await until(() => portOf(profile, child.pid), (found) => found !== null, 'the browser to listen');
-  const connected = await chromium.connectOverCDP(`http://127.0.0.1:${port}`);
+  const connected = await chromium.connectOverCDP(`http://127.0.0.1:${port}`, { timeout: PATIENCE });
+  const [context] = connected.contexts();
+  await prepare(context);
   const page = async () => {
-    const context = connected.contexts()[0];
     const tab = await context.newPage();
     await tab.setViewportSize({ width: 1440, height: 900 });
-    tab.setDefaultTimeout(PATIENCE);
     await tab.goto(ADDRESS);
     return tab;
   };
@@ -38,8 +41,9 @@ export async function startBrowser(profile) {
 
 /** @param {string} profile a folder */
 async function startFirefox(profile) {
-  const options = { channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX'), viewport: { width: 1440, height: 900 } };
+  const options = { channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX'), viewport: { width: 1440, height: 900 }, timeout: PATIENCE };
   const context = await firefox.launchPersistentContext(profile, options);
+  await prepare(context);
   const pids = await processesOf(profile);
   assert(pids.length > 0, 'the browser has a process');
   const kill = async () => {
@@ -49,7 +53,6 @@ async function startFirefox(profile) {
   running.push(kill);
   const page = async () => {
     const tab = await context.newPage();
-    tab.setDefaultTimeout(PATIENCE);
     await tab.goto(ADDRESS);
     return tab;
   };

@@ -115,9 +115,21 @@ export function said(page) {
   return page.getByRole('contentinfo', { name: 'Status' }).getByRole('status').innerText();
 }
 
-/** Waits until the bottom line says something. @param {Page} page @param {RegExp} pattern */
-export function waitForWords(page, pattern) {
-  return until(() => said(page), (text) => pattern.test(text), `the status line to say ${pattern}`);
+/** Waits until the bottom line says something, or has said it since the last press, drop or choice of a file. @param {Page} page @param {RegExp} pattern */
+export async function waitForWords(page, pattern) {
+  const words = async () => [...(await page.evaluate(() => globalThis.saidSoFar.status)), await said(page)];
+  return lastLike(words, pattern, `the status line to say ${pattern}`);
+}
+
+/** Waits until a job that the bottom line tells of is under way, or has been since then: its title and how far it is. @param {Page} page @param {RegExp} pattern */
+export function waitForJob(page, pattern) {
+  return lastLike(() => page.evaluate(() => globalThis.saidSoFar.jobs), pattern, `a job like ${pattern}`);
+}
+
+/** @param {() => Promise<string[]>} ask @param {RegExp} pattern @param {string} what */
+async function lastLike(ask, pattern, what) {
+  const last = (/** @type {string[]} */ words) => words.findLast((text) => pattern.test(text));
+  return /** @type {string} */ (last(await until(ask, (words) => last(words) !== undefined, what)));
 }
 
 /** The states of the cells: `Frame 1, femur: posed` and so on. @param {Page} page */

@@ -1,6 +1,6 @@
 /** The frame and a hand with a mouse on it. Points are columns and rows of the frame, as in the page's readout. */
 import assert from 'node:assert/strict';
-import { AS_IT_IS, drawn, until } from './browser.mjs';
+import { AS_IT_IS, atRest, drawn, until } from './browser.mjs';
 
 /** @typedef {import('./study.mjs').Point} Point */
 
@@ -38,6 +38,16 @@ export class Stage {
     const found = place.exec(text);
     assert(found);
     return [Number(found[1]), Number(found[2])];
+  }
+
+  /** The grey value at a place, as the status line says it once the frame is there. @param {Point} place */
+  async greyAt(place) {
+    await this.hover(place);
+    await drawn(this.page);
+    const status = this.page.getByRole('contentinfo', { name: 'Status' });
+    const grey = / px · (\d+)/;
+    const text = await until(() => status.innerText(), (words) => grey.test(words), `a grey value at ${place}`);
+    return Number(grey.exec(text)?.[1]);
   }
 
   /** Finds out how the frame lies on the page from the readout at two corners. */
@@ -104,13 +114,18 @@ export class Stage {
     await this.click(points[0]);
   }
 
-  /** What the frame and everything on it look like with the mouse elsewhere, but for the ring of the keyboard's focus. */
+  /** What the frame and everything on it come to look like with the mouse elsewhere, but for the ring of the keyboard's focus. */
   async picture() {
     await this.page.mouse.move(1, 1);
-    await drawn(this.page);
+    await atRest(this.page);
     const { x, y, width, height } = await this.box();
     const clip = { x: x + INSET, y: y + INSET, width: width - 2 * INSET, height: height - 2 * INSET };
     return this.page.screenshot({ ...AS_IT_IS, clip });
+  }
+
+  /** Waits until the frame looks otherwise than in a picture taken before, and gives what it looks like. @param {Buffer} before @param {string} what */
+  looksOtherwise(before, what) {
+    return until(() => this.picture(), (picture) => !before.equals(picture), what);
   }
 
   /** Waits until the frame looks as in a picture taken before. @param {Buffer} before @param {string} what */

@@ -2,6 +2,7 @@
 import * as panel from './panel.mjs';
 import { Stage } from './stage.mjs';
 import { HAND_TRACED, trueOutline, truePose } from './study.mjs';
+import { corrected } from './tracing.mjs';
 
 /**
  * Opens the demonstration, traces its first femur by mouse and checks the pose that comes of it.
@@ -20,7 +21,7 @@ export async function traceFemur(page) {
   const outline = await trueOutline('femur', 1);
   await stage.zoomTo(outline);
   await stage.trace(outline);
-  const pose = await panel.waitForPose(page);
+  const pose = await corrected(page);
   panel.assertNear(pose, await truePose('femur', 1), HAND_TRACED);
   return { pose, outline, stage };
 }

@@ -10,7 +10,7 @@ export interface Video {
   readonly height: number;
   /** Seconds. */
   readonly duration: number;
-  /** Pictures a second, as measured. */
+  /** Pictures a second, by the least time that one is shown. */
   readonly rate: number;
   readonly element: HTMLVideoElement;
   close(): void;
@@ -45,7 +45,7 @@ export async function openVideo(name: string, blob: Blob, signal: AbortSignal): 
     const { videoWidth: width, videoHeight: height } = element;
     if (width === 0 || height === 0) throw new Error(said.noSize(name));
     const end = await durationOf(element, signal);
-    const rate = await rateOf(element, signal);
+    const rate = await rateOf(element, blob, signal);
     // Recorders may end a video with the beginning of its last picture: that one lasts a while, too.
     const last = await seek(element, end, signal);
     const duration = Math.max(end, (last ?? 0) + 1 / rate);
@@ -91,7 +91,7 @@ async function seek(element: HTMLVideoElement, time: number, signal: AbortSignal
   element.currentTime = time;
   try {
     await heard(element, 'seeked', signal, said.cannot(''));
-    return await Promise.race([shown, later(SAME_PICTURE)]);
+    return await Promise.race([shown, noOtherPicture()]);
   } finally {
     forget();
   }
@@ -107,15 +107,30 @@ function nextPicture(element: HTMLVideoElement): { readonly shown: Promise<numbe
   return { shown, forget: () => element.cancelVideoFrameCallback(id) };
 }
 
-/** So long after a seek no other picture is to be expected, ms. */
-const SAME_PICTURE = 250;
+/** So long after a seek no other picture is to be expected: ms, and then so many screen frames, for a busy machine shows few of them. */
+const SAME_PICTURE = { milliseconds: 250, frames: 5 };
 
-function later(milliseconds: number): Promise<null> {
-  return new Promise((resolve) => setTimeout(() => resolve(null), milliseconds));
+async function noOtherPicture(): Promise<null> {
+  await after(SAME_PICTURE.milliseconds);
+  for (let frame = 0; frame < SAME_PICTURE.frames; frame++) {
+    // A page that nobody sees has no screen frames.
+    await Promise.race([new Promise((resolve) => requestAnimationFrame(resolve)), after(SAME_PICTURE.milliseconds)]);
+  }
+  return null;
+}
+
+function after(milliseconds: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, milliseconds));
+}
+
+/** By the file's own times of its pictures, else as the beginning plays. */
+async function rateOf(element: HTMLVideoElement, blob: Blob, signal: AbortSignal): Promise<number> {
+  const times = await (await import('./picture_times')).pictureTimes(blob, signal);
+  return times.length > 1 ? rateFrom(times) : playedRate(element, signal);
 }
 
 /** Plays the beginning and takes the least step between pictures: a busy machine leaves some out, none come too early. */
-async function rateOf(element: HTMLVideoElement, signal: AbortSignal): Promise<number> {
+async function playedRate(element: HTMLVideoElement, signal: AbortSignal): Promise<number> {
   if (!('requestVideoFrameCallback' in element)) return USUAL_RATE;
   await seek(element, 0, signal);
   const times: number[] = [];

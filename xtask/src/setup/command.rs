@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, anyhow, bail};
 
+use super::failed::Failed;
+use super::telling;
 use crate::output::{self, say};
 
 /// The first of these names that is an executable file on the PATH.
@@ -57,9 +59,7 @@ pub(crate) fn of_lane(program: impl AsRef<OsStr>) -> Command {
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
 pub(crate) fn run(command: &mut Command) -> Result<()> {
     if output::lane().is_some() {
-        let (success, _) = tee(command)?;
-        ensure!(success, "{} failed", shown(command));
-        return Ok(());
+        return tee(command)?.or_failed(&shown(command), telling::of_others);
     }
     let status = command
         .stdin(Stdio::null())
@@ -89,25 +89,46 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Runs a command, shows its output line by line and keeps what goes to standard output.
-///
-/// Returns whether it succeeded and what it wrote there.
-pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
+/// What a command that has ended wrote.
+pub(crate) struct Told {
+    pub success: bool,
+    /// To standard output.
+    pub output: String,
+    /// To standard error, as far as it was kept.
+    pub errors: String,
+}
+
+impl Told {
+    /// An error that says what failed, with the lines that tell by what.
+    pub(crate) fn or_failed(&self, what: &str, lines_of: fn(&str) -> Vec<String>) -> Result<()> {
+        if self.success {
+            return Ok(());
+        }
+        let what = format!("{what} failed");
+        let lines = lines_of(&telling::without_colours(&self.all()));
+        Err(Failed { what, lines }.into())
+    }
+
+    /// Both, one after the other.
+    pub(crate) fn all(&self) -> String {
+        format!("{}{}", self.output, self.errors)
+    }
+}
+
+/// Runs a command, shows its output line by line and keeps what goes to standard output, in a lane also what goes to standard error.
+pub(crate) fn tee(command: &mut Command) -> Result<Told> {
     if output::lane().is_some() {
         command.stderr(Stdio::piped());
     }
-    let (success, kept, _) = teed(command)?;
-    Ok((success, kept))
+    teed(command)
 }
 
-/// The same with what goes to standard error kept as well, after the rest.
-pub(crate) fn tee_all(command: &mut Command) -> Result<(bool, String)> {
-    let (success, kept, errors) = teed(command.stderr(Stdio::piped()))?;
-    Ok((success, kept + &errors))
+/// The same with what goes to standard error kept in any case.
+pub(crate) fn tee_all(command: &mut Command) -> Result<Told> {
+    teed(command.stderr(Stdio::piped()))
 }
 
-/// Whether a command succeeded, and what of its output and errors was to be had.
-fn teed(command: &mut Command) -> Result<(bool, String, String)> {
+fn teed(command: &mut Command) -> Result<Told> {
     let lane = output::lane();
     command.stdin(Stdio::null()).stdout(Stdio::piped());
     let mut child = command
@@ -124,7 +145,11 @@ fn teed(command: &mut Command) -> Result<(bool, String, String)> {
     let kept = stdout.map(show).transpose()?.unwrap_or_default();
     let errors = errors.join();
     let errors = errors.map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
-    Ok((child.wait()?.success(), kept, errors.unwrap_or_default()))
+    Ok(Told {
+        success: child.wait()?.success(),
+        output: kept,
+        errors: errors.unwrap_or_default(),
+    })
 }
 
 /// Shows lines as they come and keeps them.
@@ -223,10 +248,15 @@ mod tests {
         };
         lane.work(|| {
             let mut shell = of_lane("sh");
-            let (success, kept) = tee(shell.args(["-c", "echo out; echo error >&2"])).unwrap();
-            assert!(success);
-            assert_eq!(kept, "out\n");
-            assert!(run(of_lane("sh").args(["-c", "exit 3"])).is_err());
+            let told = tee(shell.args(["-c", "echo out; echo error >&2"])).unwrap();
+            assert!(told.success);
+            assert_eq!(
+                (told.output.as_str(), told.errors.as_str()),
+                ("out\n", "error\n")
+            );
+            let failing = run(of_lane("sh").args(["-c", "echo why >&2; exit 3"])).unwrap_err();
+            let failed = failing.downcast_ref::<Failed>().unwrap();
+            assert_eq!(failed.lines, ["why"]);
         });
     }
 

@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 
 use super::command;
 use super::missing::Missing;
-use super::rust_target::own_cargo;
+use super::rust_target::{COMPILER_OF_MEMBERS, own_cargo};
 use crate::output::announce;
 
 /// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
@@ -42,8 +42,8 @@ pub(crate) fn lint(cargo: &mut Command) -> Result<()> {
     ensure("clippy")?;
     let linter = command::find(&["clippy-driver"]);
     let linter = linter.context("no clippy-driver on the PATH: it comes with `cargo clippy`")?;
-    cargo.env("RUSTC_WORKSPACE_WRAPPER", linter);
-    // As `cargo clippy -- -D warnings` hands it on.
+    cargo.env(COMPILER_OF_MEMBERS, linter);
+    // As `cargo clippy -- -D warnings` hands it on, and `.ci/run`.
     cargo.env(
         "CLIPPY_ARGS",
         ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),

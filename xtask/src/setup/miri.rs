@@ -4,6 +4,7 @@ use std::process::Command;
 
 use super::command;
 use super::missing::Missing;
+use super::rust_target::COMPILER_OF_MEMBERS;
 use crate::output::announce;
 use crate::workspace;
 
@@ -27,6 +28,7 @@ pub(crate) fn cargo() -> Result<Command, Missing> {
             "CARGO",
             "RUSTC",
             "RUSTC_WRAPPER",
+            COMPILER_OF_MEMBERS,
             "RUSTFLAGS",
         ] {
             cargo.env_remove(name);

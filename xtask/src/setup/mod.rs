@@ -6,12 +6,14 @@
 pub(crate) mod command;
 pub(crate) mod components;
 mod debian;
+pub(crate) mod failed;
 pub(crate) mod miri;
 mod missing;
 pub(crate) mod node;
 pub(crate) mod programs;
 pub(crate) mod python;
 pub(crate) mod rust_target;
+pub(crate) mod telling;
 mod turns;
 
 pub(crate) use missing::Missing;

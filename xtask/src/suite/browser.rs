@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use super::report::{Report, Said};
-use super::{checked_profile, counts};
+use super::{checked_profile, counts, test_files};
 use crate::output::Lane;
 use crate::page::{self, Build};
-use crate::setup::{command, node, programs};
+use crate::setup::{command, node, programs, telling};
 use crate::static_server::Server;
 use crate::{package, workspace};
 
@@ -46,12 +46,9 @@ pub(crate) fn run(report: &mut Report) {
         Ok(command::run(&mut node::script(&web, "typecheck")?)?.into())
     });
     report.step(UNITS, || {
-        let (success, output) = command::tee(&mut node::script(&web, "test")?)?;
-        ensure!(
-            success,
-            "the page's unit tests failed; their output above says where"
-        );
-        Ok(counts::of_vitest(&output)?.into())
+        let told = command::tee(&mut node::script(&web, "test")?)?;
+        told.or_failed("a unit test of the page", telling::of_vitest)?;
+        Ok(counts::of_vitest(&told.output)?.into())
     });
     report.step(PACKAGES, || {
         package::make(&dist(), &package::usual_folder()).map(|_| Said::default())
@@ -75,39 +72,38 @@ fn dist() -> PathBuf {
 
 fn in_chromium() -> Result<Said> {
     let (chromium, laboratory) = (programs::chromium()?, checked_profile::laboratory()?);
-    drive(|tests| {
+    drive(test_files::all_in(&folder())?, 3, &|tests| {
         // What the page writes is compared with what the command does.
         tests
-            .env("FLUOROPOSE_CHROMIUM", chromium)
-            .env("FLUOROPOSE_LABORATORY", laboratory);
+            .env("FLUOROPOSE_CHROMIUM", &chromium)
+            .env("FLUOROPOSE_LABORATORY", &laboratory);
     })
 }
 
 fn in_firefox() -> Result<Said> {
     let firefox = programs::firefox()?;
-    drive(|tests| {
-        tests.env("FLUOROPOSE_FIREFOX", firefox).args(IN_FIREFOX);
+    drive(IN_FIREFOX.map(str::to_owned).into(), 2, &|tests| {
+        tests.env("FLUOROPOSE_FIREFOX", &firefox);
     })
 }
 
-/// Serves the page and runs the tests of `tests/browser` against it; `with` says in which browser, and which tests.
-fn drive(with: impl FnOnce(&mut Command)) -> Result<Said> {
-    let folder = workspace::root().join("tests/browser");
+fn folder() -> PathBuf {
+    workspace::root().join("tests/browser")
+}
+
+/// Serves the page and runs files of `tests/browser` against it; `with` says in which browser.
+///
+/// Two cores are busy with few of them: six at a time take a fifth more processor time than two (`tests/records/tests.md`).
+fn drive(files: Vec<String>, at_once: usize, with: &(dyn Fn(&mut Command) + Sync)) -> Result<Said> {
     let node = node::node()?;
-    node::install(&folder)?;
+    node::install(&folder())?;
     let server = Server::start(&dist(), 0)?;
-    let mut tests = Command::new(node);
-    tests
-        // On two cores: most of the time a page waits for a screen frame, or a hand for the page.
-        .args(["--test", "--test-reporter=spec", "--test-concurrency=4"])
-        .current_dir(&folder)
-        .env("FLUOROPOSE_URL", server.url())
-        .env("FLUOROPOSE_PACKAGE", package::usual_folder());
-    with(&mut tests);
-    let (success, output) = command::tee(&mut tests)?;
-    ensure!(
-        success,
-        "the tests in the browser failed; their output above says where"
-    );
-    Ok(counts::of_node(&output)?.into())
+    test_files::run(&folder(), files, at_once, &|| {
+        let mut tests = Command::new(&node);
+        tests
+            .env("FLUOROPOSE_URL", server.url())
+            .env("FLUOROPOSE_PACKAGE", package::usual_folder());
+        with(&mut tests);
+        tests
+    })
 }

@@ -11,7 +11,7 @@ use super::report::Report;
 use super::{native, python};
 use crate::output::announce;
 use crate::setup::rust_target::own_cargo;
-use crate::setup::{command, components, node};
+use crate::setup::{command, components, node, telling};
 use crate::workspace;
 
 /// Tests of many poses, which take most of a minute.
@@ -178,13 +178,10 @@ fn page_tests(sources: &[String]) -> Result<super::report::Said> {
         ])
         .args(sources)
         .current_dir(web);
-    let (success, output) = command::tee(&mut vitest)?;
-    anyhow::ensure!(
-        success,
-        "the page's unit tests failed; their output above says where"
-    );
+    let told = command::tee(&mut vitest)?;
+    told.or_failed("a unit test of the page", telling::of_vitest)?;
     // A source that no test reads has none.
-    Ok(super::counts::of_vitest(&output).map_or_else(|_| ().into(), Into::into))
+    Ok(super::counts::of_vitest(&told.output).map_or_else(|_| ().into(), Into::into))
 }
 
 fn tell_what_is_left_out(changed: &[String], rust: &BTreeSet<String>, web: &[String]) {

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 
 use anyhow::{Result, ensure};
 
+use crate::setup::telling::without_colours;
+
 /// Tests that ran, and tests that checked nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Counts {
@@ -18,6 +20,20 @@ impl Counts {
     fn of(passed: u32, skipped: u32) -> Result<Self> {
         ensure!(passed > 0, "the runner reports that no test passed");
         Ok(Self { passed, skipped })
+    }
+
+    /// Of no test at all.
+    pub(crate) const NONE: Self = Self {
+        passed: 0,
+        skipped: 0,
+    };
+
+    /// Of both.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            passed: self.passed + other.passed,
+            skipped: self.skipped + other.skipped,
+        }
     }
 
     /// Counts tests as skipped that passed because what they check is not here: each wrote a line that begins with
@@ -103,17 +119,6 @@ fn number_before(line: &str, word: &str) -> Option<u32> {
         .collect();
     let at = words.iter().position(|found| *found == word)?;
     words.get(at.checked_sub(1)?)?.parse().ok()
-}
-
-/// The text without the escape sequences that colour a terminal.
-fn without_colours(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once("\u{1b}[") {
-        plain.push_str(before);
-        rest = after.split_once('m').map_or("", |(_, after)| after);
-    }
-    plain + rest
 }
 
 #[cfg(test)]

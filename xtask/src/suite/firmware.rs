@@ -16,8 +16,8 @@ use crate::setup::rust_target::{self, Toolchain, own_cargo};
 use crate::setup::{command, components, programs};
 use crate::workspace;
 
-/// Emulating the proof takes a few seconds; far beyond that it hangs.
-const QEMU_LIMIT: Duration = Duration::from_secs(120);
+/// Emulating the proof takes a few seconds, beside browsers and compilers a minute; far beyond that it hangs.
+const QEMU_LIMIT: Duration = Duration::from_secs(600);
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {

@@ -14,3 +14,4 @@ mod native;
 pub(crate) mod python;
 pub(crate) mod report;
 pub(crate) mod side_by_side;
+mod test_files;

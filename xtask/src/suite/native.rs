@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use super::checked_profile;
 use super::counts;
@@ -13,6 +13,7 @@ use crate::output::{self, Lane, say};
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
+use crate::setup::telling;
 use crate::workspace;
 
 /// Programs that check what they print.
@@ -120,9 +121,9 @@ pub(crate) fn tests(cargo: &mut Command, which: &str) -> Result<Said> {
     let notes = workspace::target_dir().join(format!("skipped-tests-{which}"));
     // None is left from a run before.
     let _ = fs::remove_file(&notes);
-    let (success, output) = command::tee(cargo.env("FLUOROPOSE_SKIPPED", &notes))?;
-    ensure!(success, "`cargo test` failed; its output above says where");
+    let told = command::tee(cargo.env("FLUOROPOSE_SKIPPED", &notes))?;
+    told.or_failed("`cargo test`", telling::of_cargo)?;
     let notes = fs::read_to_string(&notes).unwrap_or_default();
     notes.lines().for_each(say);
-    Ok(counts::of_cargo(&output)?.with_notes(&notes).into())
+    Ok(counts::of_cargo(&told.output)?.with_notes(&notes).into())
 }

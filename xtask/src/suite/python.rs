@@ -11,7 +11,7 @@ use super::checked_profile::CHECKED;
 use super::counts;
 use super::report::{Report, Said};
 use crate::setup::rust_target::own_cargo;
-use crate::setup::{command, components, python};
+use crate::setup::{command, components, python, telling};
 use crate::{wheel, workspace};
 
 /// The extension's crate.
@@ -201,10 +201,7 @@ fn tests(python: &Path, pattern: &str, package: Option<&Path>) -> Result<Said> {
     if let Some(package) = package {
         tests.env("PYTHONPATH", package);
     }
-    let (success, output) = command::tee_all(&mut tests)?;
-    ensure!(
-        success,
-        "tests of the Python package failed; their output above says where"
-    );
-    Ok(counts::of_unittest(&output)?.into())
+    let told = command::tee_all(&mut tests)?;
+    told.or_failed("a test of the Python package", telling::of_unittest)?;
+    Ok(counts::of_unittest(&told.all())?.into())
 }

@@ -9,12 +9,13 @@ use anyhow::Result;
 use super::counts::Counts;
 use crate::output::{Lane, announce};
 use crate::setup::Missing;
+use crate::setup::failed::Failed;
 
 /// What became of a step, with a few words about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Outcome {
     Passed(Said),
-    Failed(String),
+    Failed(Failed),
     Skipped(String),
 }
 
@@ -23,6 +24,19 @@ enum Outcome {
 pub(crate) struct Said {
     counts: Option<Counts>,
     words: String,
+    /// What is told at the end although it passed.
+    lines: Vec<String>,
+}
+
+impl Said {
+    /// With words beside its counts, and lines that tell of them at the end.
+    pub(crate) fn with_words(self, words: String, lines: Vec<String>) -> Self {
+        Self {
+            words,
+            lines,
+            ..self
+        }
+    }
 }
 
 impl From<()> for Said {
@@ -35,7 +49,7 @@ impl From<Counts> for Said {
     fn from(counts: Counts) -> Self {
         Self {
             counts: Some(counts),
-            words: String::new(),
+            ..Self::default()
         }
     }
 }
@@ -43,8 +57,8 @@ impl From<Counts> for Said {
 impl From<String> for Said {
     fn from(words: String) -> Self {
         Self {
-            counts: None,
             words,
+            ..Self::default()
         }
     }
 }
@@ -88,8 +102,8 @@ impl Report {
         let seconds = start.elapsed().as_secs_f64();
         match &outcome {
             Outcome::Passed(_) => announce(&format!("{name}: passed in {seconds:.1} s")),
-            Outcome::Failed(said) => {
-                announce(&format!("{name}: FAILED after {seconds:.1} s: {said}"))
+            Outcome::Failed(Failed { what, .. }) => {
+                announce(&format!("{name}: FAILED after {seconds:.1} s: {what}"))
             }
             Outcome::Skipped(said) => announce(&format!("{name}: skipped: {said}")),
         }
@@ -141,7 +155,11 @@ impl Report {
         match error.downcast_ref::<Missing>() {
             // Whoever runs CI can give the machine what it needs, but cannot make a source offer what it has not.
             Some(missing) if missing.tried || !self.under_ci => Outcome::Skipped(said),
-            _ => Outcome::Failed(said),
+            _ => {
+                let failed = error.downcast_ref::<Failed>();
+                let lines = failed.map_or_else(Vec::new, |failed| failed.lines.clone());
+                Outcome::Failed(Failed { what: said, lines })
+            }
         }
     }
 
@@ -178,8 +196,34 @@ impl fmt::Display for Report {
         let failed = self.count(|outcome| matches!(outcome, Outcome::Failed(_)));
         write!(f, "{passed} passed, {failed} failed")?;
         match self.lines.len() - passed - failed {
-            0 => writeln!(f),
-            skipped => writeln!(f, ", {skipped} skipped"),
+            0 => writeln!(f)?,
+            skipped => writeln!(f, ", {skipped} skipped")?,
+        }
+        self.lines.iter().try_for_each(|line| line.tell_why(f))
+    }
+}
+
+/// So many lines are told once more of a step that failed.
+const MOST_TOLD: usize = 40;
+
+impl Line {
+    /// At the very end, which is kept where a log is cut.
+    fn tell_why(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (word, lines) = match &self.outcome {
+            Outcome::Failed(Failed { lines, .. }) => ("FAILED", lines),
+            Outcome::Passed(Said { lines, .. }) => ("passed at last", lines),
+            Outcome::Skipped(_) => return Ok(()),
+        };
+        if lines.is_empty() {
+            return Ok(());
+        }
+        writeln!(f, "\n{word}: {}", self.step)?;
+        for line in lines.iter().take(MOST_TOLD) {
+            writeln!(f, "  {line}")?;
+        }
+        match lines.len().saturating_sub(MOST_TOLD) {
+            0 => Ok(()),
+            more => writeln!(f, "  and {more} lines more, where the step failed"),
         }
     }
 }
@@ -188,7 +232,7 @@ impl fmt::Display for Line {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (word, counts, words) = match &self.outcome {
             Outcome::Passed(said) => ("passed", said.counts, &said.words),
-            Outcome::Failed(words) => ("FAILED", None, words),
+            Outcome::Failed(failed) => ("FAILED", None, &failed.what),
             Outcome::Skipped(words) => ("skipped", None, words),
         };
         let seconds = self.time.as_secs_f64();
@@ -249,6 +293,41 @@ mod tests {
             "{report}"
         );
         assert!(report.has_failed());
+    }
+
+    #[test]
+    fn why_a_step_failed_is_told_at_the_end() {
+        let mut report = report(false);
+        let failed = |lines| Failed {
+            what: "a test failed".into(),
+            lines,
+        };
+        report.step("one", || {
+            Err(failed(vec!["a::b".into(), "    not right".into()]).into())
+        });
+        report.step("two", || {
+            Err(anyhow::Error::from(failed(vec!["line".into(); 43])).context("it did not go"))
+        });
+        let text = report.to_string();
+        let (table, end) = text.split_once("0 passed, 2 failed\n").unwrap();
+        assert!(table.contains("a test failed"), "{table}");
+        assert!(
+            end.starts_with("\nFAILED: one\n  a::b\n      not right\n\nFAILED: two\n  line\n"),
+            "{end}"
+        );
+        assert!(
+            end.ends_with("  line\n  and 3 lines more, where the step failed\n"),
+            "{end}"
+        );
+        report.step("three", || {
+            let words = "one passed at the second attempt".to_owned();
+            Ok(Said::default().with_words(words, vec!["a.mjs".into()]))
+        });
+        let text = report.to_string();
+        assert!(
+            text.ends_with("\npassed at last: three\n  a.mjs\n"),
+            "{text}"
+        );
     }
 
     #[test]
