@@ -105,16 +105,16 @@ function UndoAndRedo({ state }: { state: State }) {
   );
 }
 
-/** The one button that leads on: follows the film, and once that is done goes through what is doubtful. */
+/** The one button that leads on: follows the film, and once that is done goes through what is doubtful or has no pose. */
 function WayOn({ state }: { state: State }) {
   const { actions } = useApp();
   const doc = state.history.present;
   const { following } = state.ui;
-  const { step, doubtful } = standingOf(doc);
+  const { step, doubtful, lacking } = standingOf(doc);
   if (step === 'check' && !following) {
     return (
-      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful)} onClick={() => actions.work.check()}>
-        {texts.first.steps.check(doubtful)}
+      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful, lacking)} onClick={() => actions.work.check()}>
+        {texts.first.steps.check(doubtful + lacking)}
       </button>
     );
   }

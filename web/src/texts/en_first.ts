@@ -4,7 +4,11 @@ export const first = {
     region: 'Steps',
     names: { open: 'Open', first: 'First frame', follow: 'Follow', check: 'Check', joint: 'Joint' },
     check: (doubtful: number) => `Check ${doubtful}`,
-    checkTitle: (doubtful: number) => `${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful: go through them, the worst first (N)`,
+    checkTitle: (doubtful: number, lacking: number) => {
+      const poses = doubtful === 0 ? [] : [`${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful`];
+      const cells = lacking === 0 ? [] : [`${lacking} ${lacking === 1 ? 'cell has' : 'cells have'} none`];
+      return `${[...poses, ...cells].join(', ')}: go through them, the worst first (N)`;
+    },
   },
   card: {
     region: 'What to do next',
