@@ -55,6 +55,14 @@ export function isReady(doc: Doc): boolean {
   return doc.frames.length > 0 && doc.calibration !== null && COMPONENT_NAMES.some((component) => doc.components[component].model !== null);
 }
 
+/** What no frame can have a pose without, and nobody gave; null where all is there or there is no frame yet. */
+export function whatIsMissing(doc: Doc): 'calibration' | ComponentName | null {
+  if (doc.frames.length === 0) return null;
+  if (doc.calibration === null) return 'calibration';
+  const isAny = COMPONENT_NAMES.some((component) => doc.components[component].model !== null || doc.components[component].libraryFile !== null);
+  return isAny ? null : 'femur';
+}
+
 /**
  * The component that a click means: the selected one, but where that has its pose, or was just clicked, and the other has
  * neither in the whole film, a click beside it means the other.
