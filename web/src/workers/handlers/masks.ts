@@ -18,7 +18,7 @@ const MOST_LABELS = 8;
 serve<MasksProtocol>({
   look: async ({ bytes, name }) => {
     await ready;
-    return using(new FrameFile(bytes, name), (file) => using(file.frame(0), (frame) => using(imageOf(frame), (page) => labelsIn(page, frame.width * frame.height))));
+    return using(new FrameFile(bytes, name), (file) => using(file.frame(0), labelsIn));
   },
   read: async ({ bytes, name, tolerance }, context) => {
     await ready;
@@ -73,11 +73,10 @@ function labelOf(page: FrameImage, value: number, tolerance: number): MaskLabel 
 }
 
 /** How many labels; one grey all over is none: it shows no component. */
-function labelsIn(page: FrameImage, pixels: number): number | null {
-  const values = labelsOfMask(page, MOST_LABELS);
-  const [only] = values ?? [];
-  const isWhole = values?.length === 1 && only !== undefined && labelOf(page, only, 1).area === pixels;
-  return isWhole ? 0 : (values?.length ?? null);
+function labelsIn({ pixels, width, height }: DecodedFrame): number | null {
+  const [first] = pixels;
+  if (pixels.every((grey: number) => grey === first)) return 0;
+  return using(imageOf({ pixels, width, height }), (page) => labelsOfMask(page, MOST_LABELS)?.length ?? null);
 }
 
 function using<H extends { free(): void }, T>(held: H, work: (held: H) => T): T {
