@@ -33,7 +33,7 @@ pub use error::FindError;
 pub use find::{Found, Goal, Wanted, find, find_into, find_paced};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 #[cfg(feature = "alloc")]
-pub use flipped::{FlippedFit, FlippedKnee};
+pub use flipped::{FlippedFit, FlippedKnee, FlippedLooks};
 pub use memory::FinderMemory;
 pub use usual::{FilmMisfits, look_beyond};
 pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};

@@ -81,6 +81,12 @@ pageTest('outlines and masks come and go', async (page, t) => {
   }
 });
 
+pageTest('blank frames stay in the film', async (page) => {
+  const blank = (/** @type {string} */ name, /** @type {number} */ grey) => drawnMask(name, SIDE, SIDE, () => grey);
+  await drop(page, await demoFile(framePath(1)), blank('0002.png', 0), blank('0003.png', 255), await demoFile(framePath(4)));
+  await panel.waitForFrames(page, 4);
+});
+
 pageTest('what does not fit is said', async (page, t) => {
   await openFrames(page);
 

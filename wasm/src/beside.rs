@@ -1,19 +1,39 @@
 //! Components that lie beside each other as in no knee, over the page's film.
 
-use fluoropose::joint::beside::{Lying, Middles};
-use fluoropose::mesh::Mesh;
+use fluoropose::finder::{FlippedKnee, FlippedLooks};
+use fluoropose::image::frame::Grey;
+use fluoropose::joint::beside::{Beside, Lying, Middles};
+use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::anatomy::KneeComponent;
+use fluoropose::pose::Pose;
+use fluoropose::refine::{CameraView, ImageTarget, RefineBuffers, RefineOptions, polarity_at};
 use wasm_bindgen::prelude::*;
 
+use crate::film::film_model;
+use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
 /// Numbers of a pose and the standard deviation of its depth.
 const NUMBERS: usize = 7;
 
-/// The middles of both components of a knee.
+/// Both components of a knee as they lie beside each other, and as they would with the pictures flipped.
 #[wasm_bindgen]
 pub struct KneeMiddles {
+    models: [OwnedModel; 2],
+    axes: [Pose; 2],
     middles: Option<Middles>,
+    flipped: Option<Looked>,
+}
+
+/// Frames that are looked at as if they were flipped.
+struct Looked {
+    /// Drawn with mirrored models.
+    knee: FlippedKnee,
+    looks: FlippedLooks,
+    /// Of femur and tibia, frame by frame.
+    poses: [Vec<Option<Pose>>; 2],
 }
 
 #[wasm_bindgen]
@@ -24,66 +44,147 @@ impl KneeMiddles {
     /// The core's sentence about a mesh, or about axes that are no right-handed frame.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        femur_vertices: &[f32],
-        femur_triangles: &[u32],
+        femur_vertices: Vec<f32>,
+        femur_triangles: Vec<u32>,
         femur_axes: &[f64],
-        tibia_vertices: &[f32],
-        tibia_triangles: &[u32],
+        tibia_vertices: Vec<f32>,
+        tibia_triangles: Vec<u32>,
         tibia_axes: &[f64],
     ) -> Result<Self, JsError> {
-        let femur = mesh(femur_vertices, femur_triangles)?;
-        let tibia = mesh(tibia_vertices, tibia_triangles)?;
+        let femur = OwnedModel::new(femur_vertices, femur_triangles).map_err(sentence)?;
+        let tibia = OwnedModel::new(tibia_vertices, tibia_triangles).map_err(sentence)?;
         let axes = [axes_from(femur_axes)?, axes_from(tibia_axes)?];
+        let [a, b] = [&femur, &tibia].map(|model| *model.as_model().mesh());
         Ok(Self {
-            middles: Middles::new((femur, &axes[0]), (tibia, &axes[1])),
+            middles: Middles::new((a, &axes[0]), (b, &axes[1])),
+            models: [femur, tibia],
+            axes,
+            flipped: None,
         })
     }
 
     /// What is told of each frame of a film, a sentence without its full stop; nothing where nothing is. Of each frame the femoral pose
     /// (six numbers, not finite where there is none) with the standard deviation of its depth (mm, not finite where it is not known), then the
-    /// tibial one.
+    /// tibial one. With what was seen in frames as if they were flipped, once that is complete.
     pub fn told(&self, frames: &[f64]) -> Vec<JsValue> {
-        let told = self.sentences(frames).into_iter();
-        told.map(|told| told.map_or(JsValue::NULL, |told| JsValue::from_str(&told)))
+        let told = self.judged(frames).into_iter();
+        told.map(|told| told.map_or(JsValue::NULL, |told| JsValue::from_str(&told.to_string())))
             .collect()
+    }
+
+    /// Begins to look at frames, given as `told` takes them, as if they were flipped; what was seen before is forgotten.
+    #[wasm_bindgen(js_name = beginFlipped)]
+    pub fn begin_flipped(&mut self, frames: &[f64]) {
+        self.flipped = self.looked(frames);
+    }
+
+    /// The look that is wanted next: 0 the femur, 1 the tibia, and the frame; nothing where all is seen.
+    #[wasm_bindgen(getter, js_name = wantedFlipped)]
+    pub fn wanted_flipped(&self) -> Option<Vec<u32>> {
+        let looked = self.flipped.as_ref()?;
+        let &(component, frame) = looked.looks.wanted().first()?;
+        Some(vec![
+            u32::from(component == KneeComponent::Tibia),
+            frame as u32,
+        ])
+    }
+
+    /// Looks at the frame that is wanted. `film`: what it makes of the component, as `FilmFacts.model` gives it, or empty.
+    ///
+    /// # Errors
+    /// A sentence about the calibration or the film.
+    #[wasm_bindgen(js_name = lookFlipped)]
+    pub fn look_flipped(
+        &mut self,
+        frame: &FrameImage,
+        calibration: &str,
+        width: u32,
+        height: u32,
+        film: &[f64],
+    ) -> Result<(), JsError> {
+        let camera = camera(calibration, width, height)?;
+        let film = film_model(film)?;
+        let Some(looked) = &mut self.flipped else {
+            return Ok(());
+        };
+        let Some(&(component, at)) = looked.looks.wanted().first() else {
+            return Ok(());
+        };
+        let number = usize::from(component == KneeComponent::Tibia);
+        let model = self.models[number].as_model();
+        let fit = |pose: Pose, frame: &dyn Grey| {
+            let mut buffers = RefineBuffers::default();
+            let mut memory = buffers.borrow(&model, &camera);
+            let image = ImageTarget {
+                frame,
+                unknown: None,
+                polarity: polarity_at(&model, &camera, &pose, frame, &mut memory).ok()?,
+                film,
+            };
+            let (own, view) = ((&model, &pose), CameraView::only(&camera, image));
+            let options = RefineOptions::default();
+            looked.knee.fit(component, own, view, options, &mut buffers)
+        };
+        let pose = looked.poses[number].get(at).copied().flatten();
+        let fit = frame.look(|frame| Ok(pose.and_then(|pose| fit(pose, frame))))?;
+        looked.looks.take(fit);
+        Ok(())
     }
 }
 
 impl KneeMiddles {
-    fn sentences(&self, frames: &[f64]) -> Vec<Option<String>> {
-        let pose = |numbers: &[f64; NUMBERS]| {
-            let [pose @ .., sd] = numbers;
-            let known = pose.iter().all(|number| number.is_finite());
-            let pose = known.then(|| from_numbers(pose).ok()).flatten();
-            let depth_sd_mm = if sd.is_finite() { *sd } else { 0.0 };
-            pose.map(|pose| Lying {
-                pose: pose.into(),
-                depth_sd_mm,
-            })
-        };
-        let poses: Vec<Option<Lying>> = frames.as_chunks().0.iter().map(pose).collect();
-        let (femur, tibia): (Vec<_>, Vec<_>) = poses
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|&[f, t]| (f, t))
-            .unzip();
+    fn judged(&self, frames: &[f64]) -> Vec<Option<Beside>> {
+        let [femur, tibia] = lying(frames);
         let Some(middles) = &self.middles else {
             return vec![None; femur.len()];
         };
-        let told = middles.judge_poses(&femur, &tibia).into_iter();
-        told.map(|told| told.map(|told| told.to_string())).collect()
+        let mut told = middles.judge_poses(&femur, &tibia);
+        if let Some(Looked { knee, looks, .. }) = &self.flipped {
+            let apart = middles.apart_of(&poses_of(&femur), &poses_of(&tibia));
+            knee.judge(&mut told, &apart, &looks.fits());
+        }
+        told
+    }
+
+    fn looked(&self, frames: &[f64]) -> Option<Looked> {
+        let poses = lying(frames).map(|film| poses_of(&film));
+        let apart = self.middles.as_ref()?.apart_of(&poses[0], &poses[1]);
+        let [femur, tibia] = [&self.models[0], &self.models[1]].map(OwnedModel::as_model);
+        Some(Looked {
+            knee: FlippedKnee::new((&femur, &self.axes[0]), (&tibia, &self.axes[1]))?,
+            looks: FlippedLooks::new(&apart),
+            poses,
+        })
     }
 }
 
-fn mesh<'m>(vertices: &'m [f32], triangles: &'m [u32]) -> Result<Mesh<'m>, JsError> {
-    Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0).map_err(sentence)
+/// Femur and tibia of each frame, from the numbers that `told` takes.
+fn lying(frames: &[f64]) -> [Vec<Option<Lying>>; 2] {
+    let pose = |numbers: &[f64; NUMBERS]| {
+        let [pose @ .., sd] = numbers;
+        let known = pose.iter().all(|number| number.is_finite());
+        let pose = known.then(|| from_numbers(pose).ok()).flatten();
+        let depth_sd_mm = if sd.is_finite() { *sd } else { 0.0 };
+        pose.map(|pose| Lying {
+            pose: pose.into(),
+            depth_sd_mm,
+        })
+    };
+    let poses: Vec<Option<Lying>> = frames.as_chunks().0.iter().map(pose).collect();
+    let both = poses.as_chunks::<2>().0.iter();
+    let (femur, tibia) = both.map(|&[femur, tibia]| (femur, tibia)).unzip();
+    [femur, tibia]
+}
+
+fn poses_of(film: &[Option<Lying>]) -> Vec<Option<Pose>> {
+    film.iter().map(|lying| Some((*lying)?.pose)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fake::add_box;
+    use fluoropose::finder::FlippedFit;
 
     const OWN: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -102,7 +203,7 @@ mod tests {
             &mut tibia.0,
             &mut tibia.1,
         );
-        let middles = KneeMiddles::new(&femur.0, &femur.1, &OWN, &tibia.0, &tibia.1, &OWN);
+        let middles = KneeMiddles::new(femur.0, femur.1, &OWN, tibia.0, tibia.1, &OWN);
         middles.ok().unwrap()
     }
 
@@ -117,17 +218,49 @@ mod tests {
         };
         let mut beside = [frame(30.0), frame(30.0), frame(2.0), frame(30.0)].concat();
         beside[0] = f64::NAN;
-        let told = middles.sentences(&beside);
+        let told = middles.judged(&beside);
         let words =
-            |told: &Option<String>| told.as_ref().is_some_and(|told| told.contains("mirrored"));
+            |told: &Option<Beside>| told.is_some_and(|told| told.to_string().contains("mirrored"));
         assert_eq!(
             told.iter().map(words).collect::<Vec<_>>(),
             [false, true, true, true]
         );
-        assert_eq!(middles.sentences(&[frame(2.0); 2].concat()), [None, None]);
+        assert_eq!(middles.judged(&[frame(2.0); 2].concat()), [None, None]);
         // Nobody knows how far away it is.
         let mut frame = frame(30.0);
         frame[13] = 40.0;
-        assert_eq!(middles.sentences(&[frame; 2].concat()), [None, None]);
+        assert_eq!(middles.judged(&[frame; 2].concat()), [None, None]);
+    }
+
+    /// What is told of a film whose tray lies well, once all looks have such a gain.
+    fn told_of_gain(gain: f64) -> Vec<Option<Beside>> {
+        let mut middles = knee();
+        let mut frame = [0.0; 2 * NUMBERS];
+        (frame[2], frame[9]) = (-900.0, -898.0);
+        let frames = [frame; 4].concat();
+        middles.begin_flipped(&frames);
+        assert_eq!(middles.judged(&frames), [None; 4], "nothing was seen yet");
+        let mut seen = 0;
+        while let Some(wanted) = middles.wanted_flipped() {
+            let looked = middles.flipped.as_mut().unwrap();
+            let pose = looked.poses[wanted[0] as usize][wanted[1] as usize].unwrap();
+            looked.looks.take(Some(FlippedFit { pose, gain }));
+            seen += 1;
+        }
+        assert!(seen >= 2);
+        middles.judged(&frames)
+    }
+
+    #[test]
+    fn a_knee_that_fits_better_flipped_is_told_wherever_its_tray_lies() {
+        let told = told_of_gain(1.5);
+        assert!(told.iter().all(|told| {
+            told.is_some_and(|told| {
+                told.to_string()
+                    .contains("fit better with the picture flipped")
+            })
+        }));
+        assert_eq!(told_of_gain(1.1), [None; 4]);
+        assert_eq!(told_of_gain(0.2), [None; 4]);
     }
 }

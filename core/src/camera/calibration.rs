@@ -18,7 +18,7 @@ const JTA_INTCALIB: &str = "JTA_INTCALIB";
 pub enum CalibrationError {
     /// Neither heading was found.
     #[error(
-        "this is not a calibration: it begins neither with JT_INTCALIB nor with the line 'image size' of a camera-matrix file"
+        "this is not a calibration: it begins neither with JT_INTCALIB nor with the line 'image size' of a camera-matrix file; five lines would do: JT_INTCALIB, and then in mm the distance from focus to detector, x (right) and y (up) of the principal point from the frame's middle, and the pixel pitch"
     )]
     UnknownKind,
     /// A line is missing.

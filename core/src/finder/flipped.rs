@@ -48,6 +48,75 @@ impl FlippedFit {
     }
 }
 
+/// Frames of a film that are looked at as if they were flipped.
+const FRAMES: usize = 3;
+
+/// Which looks tell whether a film is flipped, in their order. The femur comes first: where most of its fits tell that nothing is flipped, no
+/// more is looked at.
+#[derive(Clone, Debug)]
+pub struct FlippedLooks {
+    all: Vec<(KneeComponent, usize)>,
+    /// So many of them, the first, say whether the others are needed.
+    most: usize,
+    taken: Vec<Option<FlippedFit>>,
+}
+
+impl FlippedLooks {
+    /// At frames spread over all that have both poses: `apart` is how far the components lie beside each other in each
+    /// ([`Middles::apart_of`]).
+    #[must_use]
+    pub fn new(apart: &[f64]) -> Self {
+        let known: Vec<usize> = (0..apart.len()).filter(|&k| apart[k].is_finite()).collect();
+        let step = known.len().div_ceil(FRAMES).max(1);
+        let spread = known.iter().copied().skip(step / 2).step_by(step);
+        let of = |component| spread.clone().map(move |frame| (component, frame));
+        let all: Vec<_> = of(KneeComponent::Femur)
+            .chain(of(KneeComponent::Tibia))
+            .collect();
+        let frames = all.len() / 2;
+        Self {
+            most: frames.min(frames / 2 + 1),
+            all,
+            taken: Vec::new(),
+        }
+    }
+
+    /// Looks that may be done at once: components with their frames. Nothing where all is told.
+    #[must_use]
+    pub fn wanted(&self) -> &[(KneeComponent, usize)] {
+        let end = match self.is_told_by_femur() {
+            true => self.taken.len(),
+            false if self.taken.len() < self.most => self.most,
+            false => self.all.len(),
+        };
+        self.all.get(self.taken.len()..end).unwrap_or_default()
+    }
+
+    /// Takes what came of the first look that is wanted.
+    pub fn take(&mut self, fit: Option<FlippedFit>) {
+        self.taken.push(fit);
+    }
+
+    /// What was seen, as [`FlippedKnee::judge`] takes it; one frame without fits where the femur tells that nothing is flipped, or
+    /// where not all was seen.
+    #[must_use]
+    pub fn fits(&self) -> Vec<Option<[FlippedFit; 2]>> {
+        if self.taken.len() < self.all.len() {
+            return alloc::vec![None];
+        }
+        let (femur, tibia) = self.taken.split_at(self.all.len() / 2);
+        let both = femur.iter().zip(tibia);
+        both.map(|(femur, tibia)| Some([(*femur)?, (*tibia)?]))
+            .collect()
+    }
+
+    fn is_told_by_femur(&self) -> bool {
+        let first = self.taken.get(..self.most);
+        self.most > 0
+            && first.is_some_and(|fits| fits.iter().all(|fit| fit.is_none_or(|fit| fit.is_poor())))
+    }
+}
+
 /// Of outlines without noise what is left is rounding, square pixels: less is no better.
 const LEAST_LOSS: f64 = 1e-3;
 
@@ -164,5 +233,49 @@ impl Mirrored {
         let turned = model.triangles().iter().flat_map(|&[a, b, c]| [a, c, b]);
         let model = OwnedModel::new(vertices, turned.collect()).ok()?;
         Some(Self { model, plane })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The looks at a film of so many frames, femur and tibia, whose fits have the gains of their components.
+    fn looked(frames: usize, gains: [f64; 2]) -> (Vec<(KneeComponent, usize)>, usize) {
+        let mut looks = FlippedLooks::new(&alloc::vec![0.0; frames]);
+        let mut seen = Vec::new();
+        while let Some(&(component, frame)) = looks.wanted().first() {
+            seen.push((component, frame));
+            let gain = gains[usize::from(component == KneeComponent::Tibia)];
+            looks.take(Some(FlippedFit {
+                pose: Pose::IDENTITY,
+                gain,
+            }));
+        }
+        let fits = looks.fits();
+        (seen, fits.iter().flatten().count())
+    }
+
+    #[test]
+    fn the_femur_may_tell_that_nothing_is_flipped_and_both_tell_that_something_is() {
+        let (seen, fits) = looked(30, [0.1, 1.0]);
+        assert_eq!((seen.len(), fits), (2, 0));
+        let (seen, fits) = looked(30, [1.5, 1.5]);
+        assert_eq!((seen.len(), fits), (6, 3));
+        let of_tibia =
+            |&&(component, _): &&(KneeComponent, usize)| component == KneeComponent::Tibia;
+        assert_eq!(seen.iter().filter(of_tibia).count(), 3);
+    }
+
+    #[test]
+    fn short_films_and_single_frames_are_looked_at_as_far_as_they_go() {
+        assert_eq!(looked(0, [1.5; 2]), (Vec::new(), 0));
+        for frames in [1, 2] {
+            let (seen, fits) = looked(frames, [1.5; 2]);
+            assert_eq!((seen.len(), fits), (2 * frames, frames), "{frames}");
+        }
+        let known = FlippedLooks::new(&[f64::NAN, 3.0, f64::NAN]);
+        assert_eq!(known.wanted(), [(KneeComponent::Femur, 1)]);
+        assert_eq!(known.fits(), [None]);
     }
 }

@@ -53,7 +53,7 @@ pub enum BuildError {
     Parameter(LibraryError),
     /// The model would touch the focus.
     #[error(
-        "the distance of {distance} mm is shorter than the model's radius of {radius:.1} mm; are the model's lengths in mm?"
+        "the distance of {distance} mm is shorter than the model's radius of {radius:.1} mm; are the lengths of model and calibration in mm?"
     )]
     TooNear {
         /// Distance asked for, mm.

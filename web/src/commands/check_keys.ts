@@ -4,13 +4,13 @@ import { verdictOf } from '../document/types';
 import type { App } from './app';
 import type { KeyInput } from './bindings';
 
-/** Is a doubtful pose on view, by somebody who goes through them? One that was taken instead of it is, until it is accepted. */
+/** Is a doubtful pose on view, or a cell without one, by somebody who goes through them? A pose that was taken instead is, until it is accepted. */
 export function isInCheck(state: State): boolean {
   const place = currentPlace(state);
   const cell = currentCell(state);
-  if (!state.ui.checking || !place || cell.result?.kind !== 'posed') return false;
+  if (!state.ui.checking || !place || !cell.result) return false;
   const isAccepted = checkState(cell, markOf(state.history.present, place)) === 'yes';
-  return !isAccepted && (cell.result.chosen !== 0 || verdictOf(cell.result)?.word === 'doubtful');
+  return !isAccepted && (cell.result.kind === 'failed' || cell.result.chosen !== 0 || verdictOf(cell.result)?.word === 'doubtful');
 }
 
 /** Keys while a doubtful pose is on view: they come before what they mean otherwise. False where the key means something else. */

@@ -65,10 +65,11 @@ export class WorkActions {
     const next = this.#store.ui.checking ? nextDoubt(doc, place, 1) : null;
     this.#store.perform(toggleChecked(place));
     const now = checkState(cell, markOf(this.#store.doc, place)) === 'yes';
-    this.#say(place, now ? texts.work.saidChecked : texts.work.saidUnchecked);
+    const said = cell.result?.kind === 'failed' ? texts.work.saidAbsent : texts.work.saidChecked;
+    this.#say(place, now ? said : texts.work.saidUnchecked);
     // Who goes through what is doubtful goes on.
     if (now && next) this.goTo(stillDoubtful(this.#store.doc, next).place);
-    if (standingOf(this.#store.doc).doubtful === 0) this.#store.show({ checking: false });
+    if (doubtsOf(this.#store.doc).length === 0) this.#store.show({ checking: false });
     return true;
   }
 
@@ -87,21 +88,22 @@ export class WorkActions {
     this.#store.selectComponent(component);
   }
 
-  /** To the worst of the doubtful poses, or on from one of them. False where there is none. */
+  /** To the worst of what is doubtful or has no pose, or on from one of them. False where there is none. */
   check(step: 1 | -1 = 1): boolean {
     const { doc, state, ui } = this.#store;
     const next = nextDoubt(doc, ui.checking ? currentPlace(state) : null, step);
     this.#store.show({ checking: next !== null });
     if (!next) return false;
     this.goTo(next.place);
-    this.#store.say('info', texts.work.nextDoubtful(next.index + 1, texts.component[next.place.component]));
+    const said = next.result.kind === 'failed' ? texts.work.nextLacking : texts.work.nextDoubtful;
+    this.#store.say('info', said(next.index + 1, texts.component[next.place.component]));
     return true;
   }
 
   #goToNext(step: 1 | -1): boolean {
     const { doc, ui } = this.#store;
     if (doc.frames.length === 0) return false;
-    if (ui.checking && this.check(step)) return true;
+    if ((ui.checking || standingOf(doc).step === 'check') && this.check(step)) return true;
     const next = nextTask(doc, poseKeys(doc), { index: ui.frameIndex, component: ui.component }, step);
     if (!next) {
       this.#store.say('info', texts.work.allDone);

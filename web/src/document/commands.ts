@@ -13,6 +13,7 @@ import {
   type Doc,
   EMPTY_CELL,
   type FileReference,
+  type ModelReference,
   type FrameEntry,
   type GreyWindow,
   isByHand,
@@ -180,11 +181,12 @@ export function setCalibration(calibration: Calibration | null): Command {
 }
 
 /** Axes are those of a file: with another one they are found again. What a study said before its model came is of this one. */
-export function setModel(name: ComponentName, model: FileReference): Command {
+export function setModel(name: ComponentName, model: ModelReference): Command {
   return onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({
     ...component,
     model,
-    axes: component.model === null ? component.axes : null,
+    // A model in another unit lies in the same axes.
+    axes: component.model === null || (model.writtenFrom && model.writtenFrom.name === component.model.name) ? component.axes : null,
   }));
 }
 

@@ -8,9 +8,9 @@ export function markOf(doc: Doc, { frameId, component }: Place): Mark {
   return doc.marks[cellKey(frameId, component)] ?? NO_MARK;
 }
 
-/** Nothing to check yet: neither an outline nor a pose. */
+/** Nothing to check yet: neither an outline nor a pose, nor was one looked for. That nothing was found may be right: the component is not there. */
 export function canBeChecked(cell: Cell): boolean {
-  return cell.outline !== null || chosenCandidate(cell) !== null;
+  return cell.outline !== null || cell.result?.kind === 'failed' || chosenCandidate(cell) !== null;
 }
 
 export type CheckState = 'no' | 'yes' | 'changed since';

@@ -1,5 +1,6 @@
 import { texts } from '../texts/texts';
 import type { ComponentName } from '../terms/component';
+import type { LengthUnit } from '../terms/length_unit';
 import { withStatedAxes } from './axes';
 import type { Command } from './command';
 import { type Axes, DEFAULT_WINDOW, type Doc, type LibrarySpec, type StatedFilm } from './types';
@@ -21,6 +22,8 @@ export interface StudyPart {
   readonly component: ComponentName;
   /** Names of files, without their folders. */
   readonly model: string | null;
+  /** Of the model's file; missing where that is in millimetres. */
+  readonly unit?: LengthUnit | null;
   readonly reference: string | null;
   readonly axes: Axes | null;
   readonly nominal: readonly [number, number] | null;

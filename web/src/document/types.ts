@@ -2,6 +2,7 @@ import type { Directions } from '../geometry/axes';
 import type { FramePoint } from '../geometry/points';
 import type { PoseNumbers, Uncertainty } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
+import type { LengthUnit } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { Cells } from './cells';
 import type { Distortion } from './distortion';
@@ -70,7 +71,7 @@ export interface Calibration {
 }
 
 export interface Component {
-  readonly model: FileReference | null;
+  readonly model: ModelReference | null;
   readonly libraryFile: FileReference | null;
   readonly librarySpec: LibrarySpec;
   /** Null until its shape has been looked at, or somebody said. */
@@ -94,6 +95,11 @@ export interface FileReference {
   readonly name: string;
   /** SHA-256 of the bytes, hexadecimal. */
   readonly sha256: string;
+}
+
+/** A model, and the file that it was written again from, in millimetres. */
+export interface ModelReference extends FileReference {
+  readonly writtenFrom?: { readonly name: string; readonly unit: LengthUnit };
 }
 
 /** Which views a library holds. */

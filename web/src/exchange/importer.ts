@@ -179,10 +179,23 @@ export async function masksAmong<F extends Incoming & { readonly head: Uint8Arra
     // What cannot be decoded is a frame's trouble, and told there.
     const look = async ({ blob, name }: Incoming) => worker.call('look', { bytes: await bytesOf(blob), name }).catch(() => null);
     const labels = await lookedAt(store, candidates, look);
-    return new Set(candidates.filter((_, index) => labels[index] !== null));
+    return masksBy(files, new Map(candidates.map((file, index) => [file, labels[index] ?? null])));
   } finally {
     worker.dispose();
   }
+}
+
+/**
+ * By how many labels files have, null those that are no masks. One without any is a mask among masks, and a blank frame of the film
+ * in a folder that holds frames and no masks besides.
+ */
+export function masksBy<F extends Incoming>(files: readonly F[], labels: ReadonlyMap<F, number | null>): ReadonlySet<F> {
+  const folderOf = ({ name, path }: Incoming) => (path ?? name).slice(0, -name.length);
+  const foldersOf = (is: (file: F) => boolean) => new Set(files.filter(is).map(folderOf));
+  const ofMasks = foldersOf((file) => (labels.get(file) ?? 0) > 0);
+  const ofFrames = foldersOf((file) => (labels.get(file) ?? null) === null);
+  const isBlankFrame = (file: F) => labels.get(file) === 0 && ofFrames.has(folderOf(file)) && !ofMasks.has(folderOf(file));
+  return new Set(files.filter((file) => (labels.get(file) ?? null) !== null && !isBlankFrame(file)));
 }
 
 /** So many bytes of a PNG tell its size. */

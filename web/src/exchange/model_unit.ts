@@ -1,6 +1,7 @@
 import { setModel } from '../document/commands';
 import type { Services } from '../jobs/services';
 import type { ComponentName } from '../terms/component';
+import { unitOf } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { holdModel } from './bring_files';
 import { stlOf } from './stl';
@@ -19,7 +20,8 @@ export async function takeInMillimetres(services: Services, component: Component
   await holdModel(services, asset);
   // Another may have been opened meanwhile.
   if (store.doc.components[component].model?.sha256 !== model.sha256) return;
-  store.perform(setModel(component, { name, sha256: asset.sha256 }));
+  const unit = unitOf(unitMm);
+  store.perform(setModel(component, { name, sha256: asset.sha256, ...(unit && { writtenFrom: { name: model.name, unit } }) }));
   store.say('info', texts.models.taken(model.name, name, unitMm));
 }
 

@@ -10,6 +10,7 @@ import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
 import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { later } from '../texts/later';
+import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
@@ -53,7 +54,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   if (frames.length > 0) await openFrames(services, frames, opened, failed, leftOut);
   const poses = sortedPoses(services.store.state, recognised.filter((file) => file.kind === 'poses'));
   for (const file of poses.clear) await attempt(file, () => openPoses(services, file), opened, failed);
-  if (study) opened.push(openStudy(services, study));
+  if (study) opened.push(await openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
@@ -295,8 +296,15 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));
 }
 
-function openStudy({ store }: Services, { name, study }: StudyFile): string {
+async function openStudy(services: Services, { name, study }: StudyFile): Promise<string> {
+  const { store } = services;
   store.perform(takeStudy(study, name));
+  for (const { component, model, unit } of study.parts) {
+    const isOfFile = model !== null && store.doc.components[component].model?.name === model;
+    if (!isOfFile || !unit || unit === 'mm') continue;
+    const { takeInMillimetres } = await import('./model_unit');
+    await takeInMillimetres(services, component, UNITS_MM[unit]);
+  }
   return texts.study.opened(study.name || name);
 }
 

@@ -5,6 +5,7 @@ import type { Study, StudyPart } from '../document/study';
 import { type Axes, DISPLAYS, NOTHING_STATED, type StatedFilm } from '../document/types';
 import { directionsFromWords } from '../geometry/axes';
 import type { ComponentName } from '../terms/component';
+import { LENGTH_UNITS } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 
 const readStudyText = object({
@@ -18,6 +19,7 @@ const readStudyText = object({
       name: text,
       role: optional(oneOf('femur', 'tibia')),
       model: optional(text),
+      unit: optional(oneOf(...LENGTH_UNITS)),
       reference: optional(text),
       axes: optional(text),
       nominal: optional(list(number)),
@@ -49,7 +51,7 @@ function roleOf({ role, name }: Pick<StudyText['component'][number], 'role' | 'n
   return role ?? componentNamed(name);
 }
 
-function readPart({ model, reference, axes, nominal, distance_mm: distance, ...named }: StudyText['component'][number]): StudyPart[] {
+function readPart({ model, unit, reference, axes, nominal, distance_mm: distance, ...named }: StudyText['component'][number]): StudyPart[] {
   const component = roleOf(named);
   if (!component) return [];
   const [x, y] = nominal ?? [];
@@ -57,6 +59,7 @@ function readPart({ model, reference, axes, nominal, distance_mm: distance, ...n
     {
       component,
       model: model && fileName(model),
+      unit,
       reference: reference && fileName(reference),
       axes: axes === null ? null : readStudyAxes(axes, component),
       nominal: x === undefined || y === undefined ? null : [x, y],

@@ -36,7 +36,8 @@ function partOf({ components, film }: Doc, name: ComponentName): object[] {
   return [
     {
       name,
-      model: model.name,
+      model: model.writtenFrom?.name ?? model.name,
+      ...(model.writtenFrom && { unit: model.writtenFrom.unit }),
       ...(words && { axes: words.join(' ') }),
       ...(librarySpec.views === 'window' && { nominal: [librarySpec.nominalX, librarySpec.nominalY] }),
       ...(distance !== null && { distance_mm: distance }),

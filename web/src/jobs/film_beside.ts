@@ -1,4 +1,5 @@
 import { type Doc, cellOf, chosenCandidate } from '../document/types';
+import type { Vector } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { isSamePlace } from '../results/film';
 import type { ComponentName } from '../terms/component';
@@ -39,12 +40,12 @@ export class ReadBeside {
     this.#known.set(component, { beside, isTaken: false });
   }
 
-  /** Drops what was read of another model, or around poses that are there no more. */
-  keepTo(doc: Doc): void {
+  /** Drops what was read of another model, or around poses that are there no more. `middleOf`: of a component's model. */
+  keepTo(doc: Doc, middleOf: (component: ComponentName) => Vector): void {
     for (const [component, { beside }] of this.#known) {
       const isThere = beside.anchors.every(({ frameId, pose }) => {
         const now = doc.frames.some(({ id }) => id === frameId) ? chosenCandidate(cellOf(doc, frameId, component))?.pose : undefined;
-        return now !== undefined && isSamePlace(now, pose);
+        return now !== undefined && isSamePlace(now, pose, middleOf(component));
       });
       if (!isThere || doc.components[component].model?.sha256 !== beside.model) this.#drop(component);
     }

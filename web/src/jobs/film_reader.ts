@@ -4,7 +4,9 @@ import { CONSTANTS, withKnownFilm } from '../document/film';
 import { isSilhouette } from '../document/laid_by';
 import { itsOutline, setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
+import { middleOf } from '../geometry/mesh_middle';
 import { pointsFrom } from '../geometry/points';
+import type { Vector } from '../geometry/pose_motion';
 import { indexOfFrame } from '../document/frame_index';
 import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
@@ -70,7 +72,7 @@ export class FilmReader {
 
   /** Was the film read beside poses of the component, as they are? */
   knowsBeside(component: ComponentName): boolean {
-    this.#beside.keepTo(this.#services.store.doc);
+    this.#beside.keepTo(this.#services.store.doc, (component) => this.#middleOf(component));
     return this.#beside.has(component);
   }
 
@@ -82,7 +84,7 @@ export class FilmReader {
   #consider(): void {
     clearTimeout(this.#timer);
     this.#pauseIsOver();
-    this.#beside.keepTo(this.#services.store.doc);
+    this.#beside.keepTo(this.#services.store.doc, (component) => this.#middleOf(component));
     if (this.#busy || this.#adopt()) return;
     const task = this.#task();
     if (!task) return void this.#waiting.splice(0).forEach((go) => go());
@@ -175,6 +177,13 @@ export class FilmReader {
     return witnesses(this.#services.store.doc, isReady, (key) => this.#entries.has(key));
   }
 
+  /** Of the model; its origin while it is not at hand, when nothing can be read anyway. */
+  #middleOf(component: ComponentName): Vector {
+    const { store, studio } = this.#services;
+    const mesh = studio.meshOf(store.doc.components[component].model?.sha256 ?? '');
+    return mesh ? middleOf(mesh) : [0, 0, 0];
+  }
+
   #isReady(component: ComponentName, frame: FrameEntry): boolean {
     const { store, studio } = this.#services;
     const { model } = store.doc.components[component];
@@ -184,7 +193,7 @@ export class FilmReader {
   /** Are there poses enough that were not asked, one that lies elsewhere now, or was one asked that is gone? */
   #isOpen(here: readonly Witness[]): boolean {
     const entries = [...this.#entries.values()];
-    const isMoved = ({ key, pose, hasLed }: Witness) => !hasLed && !isNear(this.#entries.get(key)?.witness.pose ?? pose, pose);
+    const isMoved = ({ key, component, pose, hasLed }: Witness) => !hasLed && !isNear(this.#entries.get(key)?.witness.pose ?? pose, pose, this.#middleOf(component));
     const fresh = here.filter(({ key }) => !this.#entries.has(key));
     const isFirst = ({ component }: Witness) => !entries.some(({ witness }) => witness.component === component);
     const isEnough = fresh.length > 0 && fresh.length >= MORE * entries.length;
@@ -227,7 +236,7 @@ export class FilmReader {
     }
     for (const witness of here) {
       const entry = this.#entries.get(witness.key);
-      if (entry?.isRead && (witness.hasLed || isNear(entry.witness.pose, witness.pose))) continue;
+      if (entry?.isRead && (witness.hasLed || isNear(entry.witness.pose, witness.pose, this.#middleOf(witness.component)))) continue;
       this.#entries.set(witness.key, { witness, isRead: true });
       read.push({ ...namesOf(witness), profiles: await this.#profilesOf(witness) });
     }

@@ -1,24 +1,43 @@
 import { knownAxes } from '../document/axes';
 import { withAsides } from '../document/asides';
+import { filmNumbers } from '../document/film';
 import { type Candidate, cellOf, chosenCandidate, type Doc } from '../document/types';
+import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES } from '../terms/component';
+import { asSentence } from '../texts/sentences';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { JointPart, LyingPose } from '../workers/protocol/joint';
+import type { JointPart, KneeFilm, LyingPose } from '../workers/protocol/joint';
 import type { PoseProtocol } from '../workers/protocol/pose';
+import { frameAt } from './beside_poses';
 import type { Services } from './services';
 
 /** Poses of both components in a frame, null where there is none. */
 type Pair = readonly [Candidate | null, Candidate | null];
 
+/** What was looked at as if it were flipped. */
+interface Flipped {
+  /** Of which models and camera. */
+  readonly of: string;
+  /** Frames that had both poses then. */
+  readonly known: number;
+  /** Frames that were looked at, with the poses that they were looked at from. */
+  readonly pairs: ReadonlyMap<number, Pair>;
+}
+
+/** The core looks at so many frames of a film: where there were fewer, it is asked again once there are more. */
+const ENOUGH = 3;
+
 /**
- * Sees to it that poses whose components lie beside each other as in no knee are doubtful, as where a picture is mirrored: each fits by
- * itself. The core says so, over the film or of a frame; it is said anew whenever a pose has changed, and is no unit of undo.
+ * Sees to it that poses whose components lie beside each other as in no knee are doubtful, and those that both fit better with the picture
+ * flipped, as where it is mirrored: each fits by itself. The core says so, over the film or of a frame; it is said anew whenever a pose has
+ * changed, and is no unit of undo.
  */
 export class JointWatch {
   readonly #services: Services;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   /** What was asked last, and of which models. */
   #asked: { readonly models: string; readonly pairs: readonly Pair[] } = { models: '', pairs: [] };
+  #flipped: Flipped = { of: '', known: 0, pairs: new Map() };
   #busy = false;
   #said: string | null = null;
   /** What is still to be said: it does not take the place of what is being said. */
@@ -39,7 +58,9 @@ export class JointWatch {
     // While a film is followed poses change with every frame, and a click would have to wait behind as many questions.
     if (this.#busy || models === null || ui.jobs.length > 0) return;
     const pairs = pairsOf(doc);
-    if (models === this.#asked.models && alike(pairs, this.#asked.pairs)) return;
+    const isAsked = models === this.#asked.models && alike(pairs, this.#asked.pairs);
+    // A hand that moves a model asks with every step, and looks cost more than questions.
+    if (isAsked && (ui.tool === 'pose' || this.#isLookedAt(doc, models, pairs))) return;
     const parts = this.#partsOf(doc);
     if (!parts) return;
     if (!pairs.some(([femur, tibia]) => femur && tibia)) return this.#services.store.amend((doc) => withAsides(doc, []));
@@ -48,13 +69,37 @@ export class JointWatch {
     try {
       const [femur, tibia] = parts;
       const frames = pairs.map(([femur, tibia]) => ({ femur: lying(femur), tibia: lying(tibia) }));
-      const told = await this.#worker.call('lyingBeside', { key: models, femur, tibia, frames }, { lane: 'idle' });
-      this.#take(told);
+      const film = { key: models, femur, tibia, frames };
+      if (isAsked) await this.#lookFlipped(doc, film, pairs);
+      this.#take(await this.#worker.call('lyingBeside', film, { lane: 'idle' }));
     } catch (error) {
       if (error instanceof Aborted) this.#asked = { models: '', pairs: [] };
     } finally {
       this.#busy = false;
       queueMicrotask(() => void this.#look());
+    }
+  }
+
+  #isLookedAt(doc: Doc, models: string, pairs: readonly Pair[]): boolean {
+    const of = flippedOf(doc, models);
+    const { known, pairs: looked } = this.#flipped;
+    if (of === null) return true;
+    const isSame = this.#flipped.of === of && [...looked].every(([frame, pair]) => alike([pair], pairs.slice(frame, frame + 1)));
+    return isSame && (known >= ENOUGH || known >= knownIn(pairs));
+  }
+
+  /** Looks at the frames that the core wants, as if they were flipped. */
+  async #lookFlipped(doc: Doc, film: KneeFilm, pairs: readonly Pair[]): Promise<void> {
+    const looked = new Map<number, Pair>();
+    // Also where it fails: the same question would fail again.
+    this.#flipped = { of: flippedOf(doc, film.key) ?? '', known: knownIn(pairs), pairs: looked };
+    for (let look = await this.#worker.call('beginFlipped', film, { lane: 'idle' }); look !== null; ) {
+      const { frame, component } = look;
+      const camera = cameraOf(doc, doc.frames[frame] ?? null);
+      if (!camera) return;
+      const { frameId: _, ...pixels } = await frameAt(this.#services, frame);
+      looked.set(frame, pairs[frame]!);
+      look = await this.#worker.call('lookFlipped', { ...pixels, camera, film: filmNumbers(doc, component) }, { lane: 'idle', transfer: [pixels.pixels.buffer] });
     }
   }
 
@@ -74,7 +119,7 @@ export class JointWatch {
     const sentence = this.#toSay;
     if (sentence === null || store.ui.notice !== null) return;
     this.#toSay = null;
-    store.say('info', sentence.endsWith('?') ? sentence : `${sentence}.`);
+    store.say('info', asSentence(sentence));
   }
 
   #partsOf({ components }: Doc): readonly [JointPart, JointPart] | null {
@@ -85,6 +130,12 @@ export class JointWatch {
     });
     return femur && tibia ? [femur, tibia] : null;
   }
+}
+
+/** What looks at a film as if it were flipped rest on, beside the poses; null where frames cannot be looked at. */
+function flippedOf(doc: Doc, models: string): string | null {
+  const camera = cameraOf(doc, doc.frames[0] ?? null);
+  return camera && !camera.distortion ? `${models} ${camera.text} ${camera.width} ${camera.height}` : null;
 }
 
 function lying(candidate: Candidate | null): LyingPose | null {
@@ -98,6 +149,10 @@ function modelsOf({ components }: Doc): string | null {
     return axes && model ? [model.sha256, axes] : null;
   });
   return known.every((one) => one !== null) ? JSON.stringify(known) : null;
+}
+
+function knownIn(pairs: readonly Pair[]): number {
+  return pairs.filter(([femur, tibia]) => femur && tibia).length;
 }
 
 function pairsOf(doc: Doc): readonly Pair[] {

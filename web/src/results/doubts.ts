@@ -1,32 +1,36 @@
 import type { Place } from '../document/command';
 import { isFollowed } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
-import { cellKey, cellOf, type Doc, type Posed, verdictOf } from '../document/types';
+import { type Cell, cellKey, cellOf, type Doc, type Failed, type Posed, verdictOf } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
 
-/** A pose that may be wrong, and nobody checked it. */
+/** What somebody is to look at and nobody has: a pose that may be wrong, or a cell in which none was found. */
 export interface Doubt {
   readonly place: Place;
   /** Of the frame, from 0. */
   readonly index: number;
-  readonly result: Posed;
+  readonly result: Posed | Failed;
 }
 
-/** The worst first: those that others were followed from, then the others by how bad they are. */
+/** The worst first: those that others were followed from, then the others by how bad they are; cells without a pose last, as what is corrected before may fill them. */
 export function doubtsOf(doc: Doc): readonly Doubt[] {
   const found = COMPONENT_NAMES.flatMap((component) =>
     doc.frames.flatMap(({ id: frameId }, index): Doubt[] => {
       const place = { frameId, component };
       const cell = cellOf(doc, frameId, component);
-      const isOpen = verdictOf(cell.result)?.word === 'doubtful' && checkState(cell, markOf(doc, place)) !== 'yes';
-      return isOpen && cell.result?.kind === 'posed' ? [{ place, index, result: cell.result }] : [];
+      return isOpen(cell) && cell.result && checkState(cell, markOf(doc, place)) !== 'yes' ? [{ place, index, result: cell.result }] : [];
     }),
   );
   // Sorting keeps the order of equals.
   return found.map((one) => ({ one, rank: rank(one.result) })).toSorted((a, b) => (a.rank === b.rank ? 0 : b.rank - a.rank)).map(({ one }) => one);
 }
 
-function rank(result: Posed): number {
+function isOpen({ result }: Cell): boolean {
+  return result?.kind === 'failed' || verdictOf(result)?.word === 'doubtful';
+}
+
+function rank(result: Posed | Failed): number {
+  if (result.kind === 'failed') return -Infinity;
   return isFollowed(result) ? (result.doubt ?? 0) : Infinity;
 }
 

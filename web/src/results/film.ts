@@ -5,6 +5,7 @@ import { checkState, markOf } from '../document/marks';
 import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictAlone } from '../document/types';
 import { type CellEntry, CellIndex } from '../document/cells';
 import type { Place } from '../document/command';
+import { inCamera, turnBetween, type Vector } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -76,23 +77,35 @@ function toldBy({ result, outline, resultOf }: Cell, key: string | null): Candid
   return isCurrent ? candidate : null;
 }
 
-/** Where profiles were read serves for poses this near. Not for others: what is known of a film would depend on the order of work. */
-const NEAR: PoseNumbers = { x: 0.2, y: 0.2, z: 2, zRot: 0.2, xRot: 0.2, yRot: 0.2 };
+/**
+ * How far two poses may lie apart: where the model's middle is, aside and in depth, mm, and the turn that leads from one to the other,
+ * degrees. Of the six numbers two poses that lie together may differ by much, as the axes of the model's file have it.
+ */
+interface Apart {
+  readonly aside: number;
+  readonly depth: number;
+  readonly turn: number;
+}
 
-export function isNear(a: PoseNumbers, b: PoseNumbers): boolean {
-  return isWithin(NEAR, a, b);
+/** Where profiles were read serves for poses this near. Not for others: what is known of a film would depend on the order of work. */
+const NEAR: Apart = { aside: 0.2, depth: 2, turn: 0.2 };
+
+/** `middle`: of the model. */
+export function isNear(a: PoseNumbers, b: PoseNumbers, middle: Vector): boolean {
+  return isWithin(NEAR, a, b, middle);
 }
 
 /** From poses this near the frame itself leads to the same one: a hand that corrects so much changes nothing that was read from there. */
-const REACH: PoseNumbers = { x: 3, y: 3, z: 40, zRot: 3, xRot: 3, yRot: 3 };
+const REACH: Apart = { aside: 3, depth: 40, turn: 3 };
 
 /** Does a frame lead from both poses to the same one? */
-export function isSamePlace(a: PoseNumbers, b: PoseNumbers): boolean {
-  return isWithin(REACH, a, b);
+export function isSamePlace(a: PoseNumbers, b: PoseNumbers, middle: Vector): boolean {
+  return isWithin(REACH, a, b, middle);
 }
 
-function isWithin(bounds: PoseNumbers, a: PoseNumbers, b: PoseNumbers): boolean {
-  return (Object.keys(bounds) as (keyof PoseNumbers)[]).every((field) => Math.abs(a[field] - b[field]) <= bounds[field]);
+function isWithin({ aside, depth, turn }: Apart, a: PoseNumbers, b: PoseNumbers, middle: Vector): boolean {
+  const [p, q] = [inCamera(a, middle), inCamera(b, middle)];
+  return Math.hypot(p[0] - q[0], p[1] - q[1]) <= aside && Math.abs(p[2] - q[2]) <= depth && turnBetween(a, b) <= turn;
 }
 
 /** A constant has changed by more than this part of its standard deviation, */

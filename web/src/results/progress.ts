@@ -97,7 +97,8 @@ export function passes({ progress }: Entry, filter: Filter): boolean {
     case 'all':
       return true;
     case 'unfinished':
-      return !progress.posed;
+      // Somebody said that there is nothing to find.
+      return !progress.posed && !(progress.stage === 'no pose' && progress.check === 'yes');
     case 'unchecked':
       return progress.posed && progress.check !== 'yes';
     case 'doubtful':

@@ -22,6 +22,8 @@ export interface Standing {
   readonly shaky: readonly ComponentName[];
   /** Cells whose pose may be wrong, and nobody checked it. */
   readonly doubtful: number;
+  /** Cells in which none was found, and nobody said that nothing is there. */
+  readonly lacking: number;
 }
 
 const standings = new WeakMap<Doc, Standing>();
@@ -40,15 +42,25 @@ function lookedUp(doc: Doc): Standing {
   const spans = doc.frames.length < 2 ? [] : modelled.flatMap((component) => ({ component, span: spanToFollow(doc, component) }));
   const free = spans.reduce((sum, { span }) => sum + (span?.free ?? 0), 0);
   const shaky = spans.flatMap(({ component, span }) => (span?.isDoubtful ? [component] : []));
-  const doubtful = doubtsOf(doc).length;
+  const doubts = doubtsOf(doc);
+  const lacking = doubts.filter(({ result }) => result.kind === 'failed').length;
+  const doubtful = doubts.length - lacking;
   const isAny = doc.frames.some(({ id }) => COMPONENT_NAMES.some((component) => chosenCandidate(cellOf(doc, id, component))));
-  const step = !isReady(doc) && !isAny ? 'open' : unposed.length > 0 || !isAny ? 'first' : free > 0 ? 'follow' : doubtful > 0 ? 'check' : 'joint';
-  return { step, unposed, free, shaky, doubtful };
+  const step = !isReady(doc) && !isAny ? 'open' : unposed.length > 0 || !isAny ? 'first' : free > 0 ? 'follow' : doubts.length > 0 ? 'check' : 'joint';
+  return { step, unposed, free, shaky, doubtful, lacking };
 }
 
 /** Nothing is missing for a pose by one click. */
 export function isReady(doc: Doc): boolean {
   return doc.frames.length > 0 && doc.calibration !== null && COMPONENT_NAMES.some((component) => doc.components[component].model !== null);
+}
+
+/** What no frame can have a pose without, and nobody gave; null where all is there or there is no frame yet. */
+export function whatIsMissing(doc: Doc): 'calibration' | ComponentName | null {
+  if (doc.frames.length === 0) return null;
+  if (doc.calibration === null) return 'calibration';
+  const isAny = COMPONENT_NAMES.some((component) => doc.components[component].model !== null || doc.components[component].libraryFile !== null);
+  return isAny ? null : 'femur';
 }
 
 /**

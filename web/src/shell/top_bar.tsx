@@ -7,7 +7,7 @@ import { useApp } from '../commands/app';
 import { Icon } from '../controls/icons';
 import { SavedState } from './saved_state';
 import { StepBar } from './step_bar';
-import { standingOf } from '../results/steps';
+import { standingOf, whatIsMissing } from '../results/steps';
 import { texts } from '../texts/texts';
 
 const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
@@ -105,16 +105,16 @@ function UndoAndRedo({ state }: { state: State }) {
   );
 }
 
-/** The one button that leads on: follows the film, and once that is done goes through what is doubtful. */
+/** The one button that leads on: asks for what is missing, follows the film, and once that is done goes through what is doubtful or has no pose. */
 function WayOn({ state }: { state: State }) {
   const { actions } = useApp();
   const doc = state.history.present;
   const { following } = state.ui;
-  const { step, doubtful } = standingOf(doc);
+  const { step, doubtful, lacking } = standingOf(doc);
   if (step === 'check' && !following) {
     return (
-      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful)} onClick={() => actions.work.check()}>
-        {texts.first.steps.check(doubtful)}
+      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful, lacking)} onClick={() => actions.work.check()}>
+        {texts.first.steps.check(doubtful + lacking)}
       </button>
     );
   }
@@ -125,6 +125,9 @@ function WayOn({ state }: { state: State }) {
       </button>
     );
   }
+  // Nothing can be followed before.
+  const missing = whatIsMissing(doc);
+  if (missing !== null && !following) return <GiveMissing missing={missing} />;
   if (doc.frames.length < 2 || step === 'joint') return null;
   return (
     <button
@@ -135,6 +138,16 @@ function WayOn({ state }: { state: State }) {
       onClick={() => actions.run({ name: 'work', command: 'follow-film' })}
     >
       {following ? texts.follow.stop : texts.follow.button}
+    </button>
+  );
+}
+
+function GiveMissing({ missing }: { missing: 'calibration' | ComponentName }) {
+  const { store } = useApp().services;
+  const { give, giveTitles } = texts.first.steps;
+  return (
+    <button type="button" class="button primary" aria-haspopup="dialog" title={giveTitles[missing]} onClick={() => toggle(store, missing)}>
+      {give[missing]}
     </button>
   );
 }

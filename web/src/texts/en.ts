@@ -315,6 +315,8 @@ export const en = {
     nextDoubtful: (frame: number, component: string) => `Doubtful: frame ${frame}, ${component}. Y accepts it and goes on, N leaves it for later.`,
     nextUnchecked: (frame: number, component: string) => `Every cell has a pose. Next to check: frame ${frame}, ${component} (Y marks it as checked).`,
     nothingToCheck: 'Nothing to check here yet: there is neither an outline nor a pose.',
+    nextLacking: (frame: number, component: string) => `No pose: frame ${frame}, ${component}. A click there finds it, Y says that it is not there.`,
+    saidAbsent: (frame: number, component: string) => `Frame ${frame}, ${component}: marked as not there.`,
     saidChecked: (frame: number, component: string) => `Frame ${frame}, ${component}: checked.`,
     saidUnchecked: (frame: number, component: string) => `Frame ${frame}, ${component}: no longer marked as checked.`,
     saidFlagged: (frame: number, component: string) => `Frame ${frame}, ${component}: flagged.`,

@@ -3,8 +3,18 @@ export const first = {
   steps: {
     region: 'Steps',
     names: { open: 'Open', first: 'First frame', follow: 'Follow', check: 'Check', joint: 'Joint' },
+    give: { calibration: 'Give calibration', femur: 'Give a model', tibia: 'Give a model' },
+    giveTitles: {
+      calibration: 'Without a calibration there is no pose: open its file, type its numbers, or take it from a picture of a grid or ruler',
+      femur: 'Without a model there is no pose: open the implant’s STL, OBJ or PLY file, or drop it anywhere',
+      tibia: 'Without a model there is no pose: open the implant’s STL, OBJ or PLY file, or drop it anywhere',
+    },
     check: (doubtful: number) => `Check ${doubtful}`,
-    checkTitle: (doubtful: number) => `${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful: go through them, the worst first (N)`,
+    checkTitle: (doubtful: number, lacking: number) => {
+      const poses = doubtful === 0 ? [] : [`${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful`];
+      const cells = lacking === 0 ? [] : [`${lacking} ${lacking === 1 ? 'cell has' : 'cells have'} none`];
+      return `${[...poses, ...cells].join(', ')}: go through them, the worst first (N)`;
+    },
   },
   card: {
     region: 'What to do next',

@@ -22,7 +22,7 @@ export const follow = {
   gaveWay: 'The outline takes the place of the pose that was followed; undo brings it back.',
   oneFrame: 'There is no film to follow: open at least two frames.',
   sizes: 'The frames have different sizes: a film has one.',
-  noCalibration: 'The calibration is missing: without it no pose can be followed.',
+  noCalibration: 'The calibration is missing: without it no pose can be followed. Drop its file anywhere, or press Calibration above to type it.',
   noneSet: 'Nothing to follow from: click the femur or the tibia in one frame first.',
   allSet: 'Every frame is followed already from those that are set.',
   gone: (frame: number) => `Frame ${frame} is gone: following stopped there.`,

@@ -43,7 +43,7 @@ export const curves = {
     liftOff: { title: 'Lift-off', sign: 'lateral up +' },
   } satisfies Record<CurveName, CurveWords> as Record<CurveName, CurveWords>,
   beyond: (percent: string) => `P(> 1 mm) ${percent} %`,
-  beyondShort: (percent: string) => `> 1 mm: ${percent} %`,
+  beyondShort: (percent: string) => `>1 mm: ${percent} %`,
   of: { medial: 'medial', lateral: 'lateral' },
   ofShort: { medial: 'M', lateral: 'L' },
   here: (title: string, frame: number) => `${title} in frame ${frame}`,

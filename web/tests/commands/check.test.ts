@@ -7,6 +7,7 @@ import { Store } from '../../src/document/store';
 import { cellOf, type Posed } from '../../src/document/types';
 import { doubtsOf } from '../../src/results/doubts';
 import { spanToFollow } from '../../src/results/spans';
+import { standingOf } from '../../src/results/steps';
 
 const poseOf = (x: number) => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
 const place = (frame: number) => ({ frameId: `f${frame}`, component: 'femur' as const });
@@ -46,6 +47,34 @@ describe('what is doubtful', () => {
     expect(store.ui.frameIndex).toBe(2);
     work.run('toggle-checked');
     expect(store.ui.checking).toBe(false);
+  });
+});
+
+/** The femur was looked for in a frame and is nowhere. */
+function loseIn(store: Store, frame: number) {
+  const result = { kind: 'failed', origin: 'o', sentence: 'It was not found.' } as const;
+  store.perform({ label: 'follow', apply: (doc) => withCell(doc, place(frame), { outline: null, result, resultOf: null }) });
+}
+
+describe('a cell without a pose', () => {
+  it('stands in the queue behind what is doubtful, and leads to the check', () => {
+    const { store } = bench([0, 1.1, 0]);
+    loseIn(store, 2);
+    expect(doubtsOf(store.doc).map(({ index }) => index)).toEqual([1, 2]);
+    expect(standingOf(store.doc)).toMatchObject({ doubtful: 1, lacking: 1 });
+  });
+
+  it('is gone to by N, and said by Y to be rightly empty, which holds until something is found there', () => {
+    const { store, work, press } = bench([0, 0, 0]);
+    loseIn(store, 1);
+    work.check();
+    expect([store.ui.frameIndex, isInCheck(store.state)]).toEqual([1, true]);
+    expect(press('1')).toBe(false);
+    work.run('toggle-checked');
+    expect([isInCheck(store.state), store.ui.checking, doubtsOf(store.doc).length]).toEqual([false, false, 0]);
+    const found: Posed = { kind: 'posed', from: 'film', origin: 'o', candidates: [bare(poseOf(1))], chosen: 0, reason: null, decided: true, verdict: { word: 'doubtful', because: 'of its mirror image' }, doubt: 2 };
+    store.perform({ label: 'follow', apply: (doc) => withCell(doc, place(1), { outline: null, result: found, resultOf: null }) });
+    expect(doubtsOf(store.doc).map(({ index }) => index)).toEqual([1]);
   });
 });
 

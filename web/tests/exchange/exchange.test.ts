@@ -8,7 +8,7 @@ import { assignments, componentNamed, frameNamed, likelyMatch, type Proposal, ty
 import { Store } from '../../src/document/store';
 import { cellKey, cellOf, type Doc, type Outline } from '../../src/document/types';
 import { masksOf } from '../../src/exchange/exporter';
-import { mayBeMask } from '../../src/exchange/importer';
+import { masksBy, mayBeMask } from '../../src/exchange/importer';
 import { framePoint } from '../../src/geometry/points';
 
 const triangle: Outline = { points: [framePoint(10.25, 10), framePoint(50, 1 / 3), framePoint(30, 60)], closed: true, unknownSides: [1] };
@@ -187,6 +187,20 @@ describe('a proposal', () => {
 });
 
 describe('masks', () => {
+  /** The names of what is taken for masks, of files with so many labels. */
+  const masksAmong = (labels: Readonly<Record<string, number | null>>) => {
+    const files = Object.keys(labels).map((path) => ({ name: path.split('/').at(-1)!, path, blob: new Blob() }));
+    return [...masksBy(files, new Map(files.map((file) => [file, labels[file.path]!])))].map(({ path }) => path);
+  };
+
+  it('are what has labels; an empty one among frames alone is a blank frame of the film, which keeps its place', () => {
+    expect(masksAmong({ 'f/1.png': null, 'f/2.png': 0, 'f/3.png': null })).toEqual([]);
+    expect(masksAmong({ '1.png': null, '2.png': 0 })).toEqual([]);
+    expect(masksAmong({ 'f/1.png': null, 'f/2.png': 0, 'm/1.png': 1, 'm/2.png': 0 })).toEqual(['m/1.png', 'm/2.png']);
+    expect(masksAmong({ '1.png': null, '2.png': 0, '1_mask.png': 1 })).toEqual(['2.png', '1_mask.png']);
+    expect(masksAmong({ 'f/1.png': null, 'empty/1.png': 0 })).toEqual(['empty/1.png']);
+  });
+
   it('have the names of their frames, each once', () => {
     const cells = Object.fromEntries(['f0', 'f1', 'f2', 'f3'].map((id) => [cellKey(id, 'femur'), square]));
     const { doc } = film(['a/b.png', 'film.tif #3', 'film.tif #3', 'x.dcm'], { ...cells, [cellKey('f0', 'tibia')]: draft });

@@ -1,9 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import { Assets } from '../../src/document/assets';
+import { setAxes } from '../../src/document/axes';
 import { setModel } from '../../src/document/commands';
 import { Store } from '../../src/document/store';
 import { takeInMillimetres } from '../../src/exchange/model_unit';
 import { stlOf } from '../../src/exchange/stl';
+import { readStudy } from '../../src/exchange/study_file';
+import { writeStudy } from '../../src/exchange/study_text';
+import type { Axes } from '../../src/document/types';
+import { type Directions, directionsFromWords } from '../../src/geometry/axes';
 import type { Services } from '../../src/jobs/services';
 
 const MESH = { vertices: Float32Array.of(0, 0, 0, 0.06, 0, 0, 0, 0.05, 0.01), triangles: Uint32Array.of(0, 2, 1) };
@@ -28,6 +33,16 @@ describe('a model in another unit', () => {
     expect(store.ui.notice?.text).toContain('read in metres');
     store.undo();
     expect(store.doc.components.tibia.model?.sha256).toBe('metres');
+  });
+
+  it('is named by a study with the file that it came from and its unit, which commands read too; its stated axes stay', async () => {
+    const { store, services } = bench();
+    const axes: Axes = { directions: directionsFromWords('y z x') as Directions, from: 'study', told: 'all' };
+    store.perform(setAxes('tibia', axes));
+    await takeInMillimetres(services, 'tibia', 1000);
+    expect(store.doc.components.tibia.axes).toEqual(axes);
+    const { parts } = readStudy(writeStudy(store.doc));
+    expect(parts).toMatchObject([{ component: 'tibia', model: 'tray.size 4.ply', unit: 'm', axes: { told: 'all' } }]);
   });
 
   it('has its corners where a binary STL file has them, in the order of its triangles', () => {

@@ -49,7 +49,7 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
     const numbers = curvature == null ? null : [curvature, 0.8, 0.7, 1e-8, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
     return numbers && { words: 'a film', blur: 0.8, curved: 2, profiles: 96, models: { femur: numbers, tibia: numbers }, ...facts };
   };
-  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }), hasFrame: () => true };
+  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }), meshOf: () => null, hasFrame: () => true };
   const bridges = [{ call: poses }, { call: films }] as unknown as [ConstructorParameters<typeof FilmReader>[1], ConstructorParameters<typeof FilmReader>[2]];
   const reader = new FilmReader({ store, studio } as unknown as ConstructorParameters<typeof FilmReader>[0], ...bridges);
   store.perform(addFrames(['a', 'b'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 }))));

@@ -1,8 +1,8 @@
 import { describe, expect, it, vi } from 'vitest';
 import { setAxes } from '../../src/document/axes';
-import { addFrames, setModel, withCell } from '../../src/document/commands';
+import { addFrames, setCalibration, setModel, withCell } from '../../src/document/commands';
 import { Store } from '../../src/document/store';
-import { type Axes, type Candidate, cellOf, type Posed, verdictAlone, verdictOf } from '../../src/document/types';
+import { type Axes, type Calibration, type Candidate, cellOf, type Posed, verdictAlone, verdictOf } from '../../src/document/types';
 import { type Directions, directionsFromWords } from '../../src/geometry/axes';
 import { doubtsOf } from '../../src/results/doubts';
 import { surroundingsOf } from '../../src/results/surroundings';
@@ -49,7 +49,7 @@ describe('joint watch', () => {
     put('a', 'tibia', posed(-1030));
     put('b', 'femur', posed(-1000));
     await vi.waitFor(() => expect([word('a', 'femur'), word('a', 'tibia'), word('b', 'femur')]).toEqual(['doubtful', 'doubtful', 'good']));
-    expect(store.ui.notice?.text).toBe('are the pictures mirrored?');
+    expect(store.ui.notice?.text).toBe('Are the pictures mirrored?');
     expect(doubtsOf(store.doc).map(({ place }) => place.component)).toEqual(['femur', 'tibia']);
     put('a', 'tibia', posed(-1001));
     await vi.waitFor(() => expect(word('a', 'femur')).toBe('good'));
@@ -78,5 +78,57 @@ describe('joint watch', () => {
     put('a', 'femur', null);
     await vi.waitFor(() => expect(word('a', 'tibia')).toBe('good'));
     expect(asked).toHaveLength(1);
+  });
+});
+
+describe('a film that is looked at as if it were flipped', () => {
+  /** Two frames with a calibration; a worker that wants the femur in the first, and then tells that all is mirrored. */
+  function filmed(frames: readonly string[]) {
+    const store = new Store();
+    const called: string[] = [];
+    let seen = 0;
+    const call = async (name: string, input: never) => {
+      called.push(name);
+      if (name === 'beginFlipped') return { component: 'femur', frame: 0 };
+      if (name === 'lookFlipped') return (seen++, null);
+      const { frames } = input as Asked;
+      return frames.map(({ femur, tibia }) => (femur && tibia && seen > 0 ? 'both fit better flipped: are the pictures mirrored?' : null));
+    };
+    const framePixels = async () => ({ pixels: new Uint8Array(4), width: 2, height: 2, covered: new Uint32Array() });
+    const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }), framePixels };
+    new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);
+    store.perform(addFrames(frames.map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 }))));
+    store.perform(setCalibration({ name: 'calibration.txt', text: 'JT_INTCALIB', camera: null } as unknown as Calibration));
+    for (const component of COMPONENT_NAMES) {
+      store.perform(setModel(component, { name: `${component}.stl`, sha256: component }));
+      store.perform(setAxes(component, AXES));
+    }
+    const put = (frameId: string) =>
+      COMPONENT_NAMES.forEach((component) => store.amend((doc) => withCell(doc, { frameId, component }, { outline: null, result: posed(-1000), resultOf: null })));
+    const looks = () => called.filter((name) => name === 'lookFlipped').length;
+    return { store, put, looks };
+  }
+
+  it('is doubtful where the core says so, is not looked at again for nothing, and is once more frames are known', async () => {
+    const { store, put, looks } = filmed(['a', 'b']);
+    put('a');
+    await vi.waitFor(() => expect(verdictOf(cellOf(store.doc, 'a', 'femur').result)?.because).toMatch(/flipped/));
+    store.show({});
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    expect(looks()).toBe(1);
+    put('b');
+    await vi.waitFor(() => expect(looks()).toBe(2));
+    put('a');
+    await vi.waitFor(() => expect(looks()).toBe(3));
+  });
+
+  it('waits until a hand lets go of the model', async () => {
+    const { store, put, looks } = filmed(['a']);
+    store.show({ tool: 'pose' });
+    put('a');
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    expect(looks()).toBe(0);
+    store.show({ tool: 'edit' });
+    await vi.waitFor(() => expect(looks()).toBe(1));
   });
 });

@@ -3,12 +3,14 @@ import { filmNumbers, stateFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
 import { NOTHING_STATED, cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
-import { corrected, isNear, isNews, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
+import { rotated } from '../../src/geometry/pose_motion';
+import { corrected, isNear, isNews, isSamePlace, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
 import { poseKey } from '../../src/results/keys';
 
 const GOOD: Verdict = { word: 'good', because: 'it fits' };
 const RIVAL: Verdict = { word: 'doubtful', because: 'another pose fits as well' };
 const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [] };
+const ORIGIN = [0, 0, 0] as const;
 const K = [0.026, 0.8, 0.7];
 const COVARIANCE = [1e-6, 0, 0, 0, 0.0025, 0, 0, 0, 0.01];
 
@@ -65,9 +67,21 @@ describe('who tells of the film', () => {
 
   it('a pose is asked again where it lies elsewhere', () => {
     const { pose } = candidate(1);
-    expect(isNear(pose, { ...pose, z: pose.z - 1.9 })).toBe(true);
-    expect(isNear(pose, { ...pose, x: 2 })).toBe(false);
-    expect(isNear({ ...pose, x: NaN }, pose)).toBe(false);
+    expect(isNear(pose, { ...pose, z: pose.z - 1.9 }, ORIGIN)).toBe(true);
+    expect(isNear(pose, { ...pose, x: 2 }, ORIGIN)).toBe(false);
+    expect(isNear({ ...pose, x: NaN }, pose, ORIGIN)).toBe(false);
+  });
+
+  it('lies elsewhere whatever the axes and the origin of the model are', () => {
+    const upright = { x: 1, y: 2, z: -1000, zRot: 30, xRot: 89.9, yRot: 10 };
+    const locks = { x: false, y: false, z: false, zRot: false, xRot: false, yRot: false };
+    // The two turn about nearly the same axis there, and take each other back.
+    expect(isSamePlace(upright, { ...upright, zRot: 50, yRot: -10 }, ORIGIN)).toBe(true);
+    const far = [0, 0, 400] as const;
+    const turned = rotated(upright, [0, 0, 2], far, locks);
+    expect(isSamePlace(upright, turned, far)).toBe(true);
+    expect(isSamePlace(upright, turned, ORIGIN)).toBe(false);
+    expect(isSamePlace(upright, rotated(upright, [0, 0, 4], far, locks), far)).toBe(false);
   });
 });
 

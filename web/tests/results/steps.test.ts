@@ -6,7 +6,7 @@ import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
-import { componentMeant, componentToOutline, guideOf, standingOf } from '../../src/results/steps';
+import { componentMeant, componentToOutline, guideOf, standingOf, whatIsMissing } from '../../src/results/steps';
 import type { ComponentName } from '../../src/terms/component';
 
 const FRAMES = 3;
@@ -36,6 +36,18 @@ function ready(): Store {
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   return store;
 }
+
+describe('what is missing', () => {
+  it('is asked for before anything can be followed: the calibration, then a model', () => {
+    expect(whatIsMissing(new Store().doc)).toBeNull();
+    const store = opened();
+    expect(whatIsMissing(store.doc)).toBe('calibration');
+    store.perform(setCalibration({ name: 'c', text: 'c' }));
+    expect(whatIsMissing(store.doc)).toBe('femur');
+    store.perform(setModel('tibia', { name: 't', sha256: 't' }));
+    expect(whatIsMissing(store.doc)).toBeNull();
+  });
+});
 
 describe('the first tool', () => {
   it('is one click as soon as nothing is missing for it', () => {

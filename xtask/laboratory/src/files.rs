@@ -22,7 +22,7 @@ pub use frames::{Frames, grey, stated_frames_per_s};
 pub use listing::{files_in, gaps_in};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{
-    other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
+    Unit, other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,
 };
 pub use name::check_file_name;

@@ -1,5 +1,6 @@
 import { framePoint, type FramePoint } from '../../geometry/points';
 import { COMPONENT_NAMES } from '../../terms/component';
+import { LENGTH_UNITS } from '../../terms/length_unit';
 import { readAudit, type Audit } from './audit';
 import { readAxes } from '../axes';
 import { checksum } from './checksum';
@@ -19,6 +20,7 @@ import {
   type Doc,
   type Failed,
   type FileReference,
+  type ModelReference,
   type FrameEntry,
   type GreyWindow,
   type Judged,
@@ -267,6 +269,13 @@ const readFrame = object<FrameEntry>({
 
 const readReference = object<FileReference>({ name: text, sha256: text });
 
+const readWritten = object({ writtenFrom: optional(object({ name: text, unit: oneOf(...LENGTH_UNITS) })) });
+
+const readModel: Reader<ModelReference> = (value, path) => {
+  const { writtenFrom } = readWritten(value, path);
+  return { ...readReference(value, path), ...(writtenFrom && { writtenFrom }) };
+};
+
 const readAllDirections = object<AllDirections>({ views: oneOf('all directions'), distance: nullable(number) });
 
 const readWindow = object<ViewWindow>({
@@ -290,7 +299,7 @@ const readSpec: Reader<LibrarySpec> = (value, path) => {
 };
 
 const readComponent = object<Component>({
-  model: nullable(readReference),
+  model: nullable(readModel),
   libraryFile: nullable(readReference),
   librarySpec: readSpec,
   // Sessions of versions 1 to 3 have none: the shape is asked.

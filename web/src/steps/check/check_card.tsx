@@ -1,11 +1,11 @@
-import { Fragment } from 'preact';
+import { type ComponentChildren, Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { useApp } from '../../commands/app';
 import { edit, isInCheck } from '../../commands/check_keys';
 import { knownAxes } from '../../document/axes';
 import { setSide } from '../../document/commands';
 import { currentCell, currentFrame, currentPlace, type State } from '../../document/store';
-import { type Candidate, cellOf, chosenCandidate, type Posed, verdictOf } from '../../document/types';
+import { type Candidate, cellOf, chosenCandidate, type Failed, type Posed, verdictOf } from '../../document/types';
 import type { Studio } from '../../films/studio';
 import { turnBetween } from '../../geometry/pose_motion';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
@@ -23,33 +23,65 @@ import '../../styles/check.css';
 /** On the film while somebody goes through what is doubtful: why it is, its rivals with the joint that each makes, and what can be done. */
 export function CheckCard({ state }: { state: State }) {
   const { result } = currentCell(state);
-  if (!isInCheck(state) || state.ui.overlaysHidden || result?.kind !== 'posed') return null;
+  if (!isInCheck(state) || state.ui.overlaysHidden || !result) return null;
   const place = currentPlace(state);
   const doubts = doubtsOf(state.history.present);
   const at = doubts.findIndex((doubt) => doubt.place.frameId === place?.frameId && doubt.place.component === place.component);
+  const counted: Counted = { at: at + 1, of: doubts.length };
+  return result.kind === 'failed' ? <Lacking state={state} result={result} counted={counted} /> : <Doubtful state={state} result={result} counted={counted} />;
+}
+
+/** Place in the list, from 1; 0 where it is not in it. */
+interface Counted {
+  readonly at: number;
+  readonly of: number;
+}
+
+/** Where none was found: either nothing is there, or a person shows where. */
+function Lacking({ state, result, counted: { at, of } }: { state: State; result: Failed; counted: Counted }) {
+  const { actions } = useApp();
   const words = later.check;
   return (
-    <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
-      <p class="guide-title">{at < 0 ? words.taken : words.title(at + 1, doubts.length)}</p>
-      <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
-      {result.candidates.length > 1 && <Rivals state={state} result={result} />}
-      {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
-      {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
-      <CheckButtons />
+    <section class={`guide check ${state.ui.component}`} aria-label={words.lackingRegion}>
+      <p class="guide-title">{words.lacking(at, of)}</p>
+      <p class="guide-text check-why">{result.sentence}</p>
+      <CheckButtons accept={[words.absent, words.absentTitle]} edit={[words.place, words.placeTitle]}>
+        <button type="button" class="button small" aria-keyshortcuts="o" title={words.clickTitle} onClick={() => actions.run({ name: 'tool', tool: 'one-click' })}>
+          {words.click} <kbd aria-hidden="true">O</kbd>
+        </button>
+      </CheckButtons>
     </section>
   );
 }
 
-function CheckButtons() {
+function Doubtful({ state, result, counted: { at, of } }: { state: State; result: Posed; counted: Counted }) {
+  const words = later.check;
+  return (
+    <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
+      <p class="guide-title">{at === 0 ? words.taken : words.title(at, of)}</p>
+      <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
+      {result.candidates.length > 1 && <Rivals state={state} result={result} />}
+      {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
+      {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
+      <CheckButtons accept={[words.accept, words.acceptTitle]} edit={[words.edit, words.editTitle]} />
+    </section>
+  );
+}
+
+/** Word and explanation. */
+type Words = readonly [string, string];
+
+function CheckButtons({ accept, edit: editWords, children }: { accept: Words; edit: Words; children?: ComponentChildren }) {
   const { actions, services } = useApp();
   const words = later.check;
   return (
     <div class="check-buttons">
-      <button type="button" class="button small primary" aria-keyshortcuts="y" title={words.acceptTitle} onClick={() => actions.run({ name: 'work', command: 'toggle-checked' })}>
-        {words.accept} <kbd aria-hidden="true">Y</kbd>
+      <button type="button" class="button small primary" aria-keyshortcuts="y" title={accept[1]} onClick={() => actions.run({ name: 'work', command: 'toggle-checked' })}>
+        {accept[0]} <kbd aria-hidden="true">Y</kbd>
       </button>
-      <button type="button" class="button small" aria-keyshortcuts="e" title={words.editTitle} onClick={() => edit(services.store)}>
-        {words.edit} <kbd aria-hidden="true">E</kbd>
+      {children}
+      <button type="button" class="button small" aria-keyshortcuts="e" title={editWords[1]} onClick={() => edit(services.store)}>
+        {editWords[0]} <kbd aria-hidden="true">E</kbd>
       </button>
       <button type="button" class="button small" aria-keyshortcuts="n" title={words.nextTitle} onClick={() => actions.work.check()}>
         {words.next} <kbd aria-hidden="true">N</kbd>

@@ -1,8 +1,10 @@
 import { JointReport, KneeJoint, KneeMiddles, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { JointPart, JointProtocol, JointText, LyingPose, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
+import { COMPONENT_NAMES } from '../../terms/component';
+import type { FlippedLook, JointPart, JointProtocol, JointText, KneeFilm, LyingPose, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
 import { poseArray, uncertaintyArray } from '../protocol/pose_array';
+import { withImage } from './frame_pixels';
 import type { Handlers } from './serve';
 
 const NOTHING = new Float64Array();
@@ -12,6 +14,14 @@ const NO_POSE: readonly number[] = Array<number>(6).fill(NaN);
 export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
   let open: KneeJoint | null = null;
   let middles: { readonly key: string; readonly of: KneeMiddles } | null = null;
+  const middlesOf = ({ key, femur, tibia }: KneeFilm): KneeMiddles => {
+    if (middles?.key !== key) {
+      middles?.of.free();
+      middles = null;
+      middles = { key, of: new KneeMiddles(...partOf(femur), ...partOf(tibia)) };
+    }
+    return middles.of;
+  };
   return {
     openJoint: async ({ femur, tibia, side }) => {
       await ready;
@@ -28,15 +38,22 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       const width = numbers.length / Math.max(1, frames.length);
       return { numbers, impossible: frames.map((_, at) => joint.impossible(numbers.subarray(at * width, (at + 1) * width)) ?? null) };
     },
-    lyingBeside: async ({ key, femur, tibia, frames }) => {
+    lyingBeside: async (film) => {
       await ready;
-      if (middles?.key !== key) {
-        middles?.of.free();
-        middles = { key, of: new KneeMiddles(...partOf(femur), ...partOf(tibia)) };
-      }
-      const numbers = (lying: LyingPose | null) => (lying ? [...poseArray(lying.pose), lying.depth ?? NaN] : [...NO_POSE, NaN]);
-      return middles.of.told(Float64Array.from(frames.flatMap(({ femur, tibia }) => [...numbers(femur), ...numbers(tibia)]))) as (string | null)[];
+      return middlesOf(film).told(lyingNumbers(film)) as (string | null)[];
     },
+    beginFlipped: async (film) => {
+      await ready;
+      const begun = middlesOf(film);
+      begun.beginFlipped(lyingNumbers(film));
+      return lookOf(begun);
+    },
+    lookFlipped: ({ camera: { text, width, height }, film, ...pixels }) =>
+      withImage(pixels, async (image) => {
+        if (!middles) throw new Error('No knee is looked at');
+        middles.of.lookFlipped(image, text, width, height, Float64Array.from(film ?? []));
+        return lookOf(middles.of);
+      }),
     publish: ({ film, what }) => published(open, film, (report) => textOf(report, what)),
     figurePdf: (film) => published(open, film, (report) => report.figurePdf() as Uint8Array<ArrayBuffer>),
     poseText: async (text) => {
@@ -44,6 +61,16 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       return poseText(text);
     },
   };
+}
+
+function lyingNumbers({ frames }: KneeFilm): Float64Array {
+  const numbers = (lying: LyingPose | null) => (lying ? [...poseArray(lying.pose), lying.depth ?? NaN] : [...NO_POSE, NaN]);
+  return Float64Array.from(frames.flatMap(({ femur, tibia }) => [...numbers(femur), ...numbers(tibia)]));
+}
+
+function lookOf(middles: KneeMiddles): FlippedLook | null {
+  const [component, frame] = middles.wantedFlipped ?? [];
+  return component === undefined || frame === undefined ? null : { component: COMPONENT_NAMES[component]!, frame };
 }
 
 function published<T>(joint: KneeJoint | null, film: PublishedFilm, made: (report: JointReport) => T): T {

@@ -18,7 +18,7 @@ const MOST_LABELS = 8;
 serve<MasksProtocol>({
   look: async ({ bytes, name }) => {
     await ready;
-    return using(new FrameFile(bytes, name), (file) => using(firstPage(file), (page) => labelsOfMask(page, MOST_LABELS)?.length ?? null));
+    return using(new FrameFile(bytes, name), (file) => using(file.frame(0), labelsIn));
   },
   read: async ({ bytes, name, tolerance }, context) => {
     await ready;
@@ -72,8 +72,11 @@ function labelOf(page: FrameImage, value: number, tolerance: number): MaskLabel 
   });
 }
 
-function firstPage(file: FrameFile): FrameImage {
-  return using(file.frame(0), imageOf);
+/** How many labels; one grey all over is none: it shows no component. */
+function labelsIn({ pixels, width, height }: DecodedFrame): number | null {
+  const [first] = pixels;
+  if (pixels.every((grey: number) => grey === first)) return 0;
+  return using(imageOf({ pixels, width, height }), (page) => labelsOfMask(page, MOST_LABELS)?.length ?? null);
 }
 
 function using<H extends { free(): void }, T>(held: H, work: (held: H) => T): T {

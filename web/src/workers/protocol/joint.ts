@@ -1,7 +1,9 @@
 import type { Directions } from '../../geometry/axes';
 import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
+import type { CameraInput } from './camera';
 import type { ModelMesh } from './decode';
+import type { FramePixels } from './frame_pixels';
 
 /** One component of a joint. Without a model nothing is known of lowest points. */
 export interface JointPart {
@@ -70,6 +72,21 @@ export interface LyingPose {
   readonly depth: number | null;
 }
 
+/** Where the components of a knee lie in each frame. */
+export interface KneeFilm {
+  /** Of models and axes. */
+  readonly key: string;
+  readonly femur: JointPart;
+  readonly tibia: JointPart;
+  readonly frames: readonly { readonly femur: LyingPose | null; readonly tibia: LyingPose | null }[];
+}
+
+/** Frames are numbered from 0. */
+export interface FlippedLook {
+  readonly component: ComponentName;
+  readonly frame: number;
+}
+
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
@@ -80,16 +97,10 @@ export interface JointProtocol {
   /** The figure of four panels as PDF, the same as the command line's. Throws while no joint is open. */
   figurePdf: { input: PublishedFilm; output: Uint8Array<ArrayBuffer>; progress: never };
   /** What is told of each frame of a film whose components lie beside each other as in no knee, without its full stop; null where nothing is. */
-  lyingBeside: {
-    input: {
-      /** Of models and axes. */
-      readonly key: string;
-      readonly femur: JointPart;
-      readonly tibia: JointPart;
-      readonly frames: readonly { readonly femur: LyingPose | null; readonly tibia: LyingPose | null }[];
-    };
-    output: readonly (string | null)[];
-    progress: never;
-  };
+  lyingBeside: { input: KneeFilm; output: readonly (string | null)[]; progress: never };
+  /** Begins to look at some of a film's frames as if they were flipped left to right; gives what is to be looked at first, null where nothing is. What was seen counts for `lyingBeside`. */
+  beginFlipped: { input: KneeFilm; output: FlippedLook | null; progress: never };
+  /** Looks at the frame that was asked for; gives the next. */
+  lookFlipped: { input: FramePixels & { readonly camera: CameraInput; readonly film: readonly number[] | null }; output: FlippedLook | null; progress: never };
   poseText: { input: PoseText; output: string; progress: never };
 }

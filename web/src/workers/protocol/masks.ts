@@ -1,6 +1,6 @@
 /** What the worker of masks can do: images to outlines and back. */
 export interface MasksProtocol {
-  /** How many labels the first page has; null where it is no mask: more grey values than a mask has labels. */
+  /** How many labels the first page has; null where it is no mask: more grey values than a mask has labels. One grey all over is no label. */
   look: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: number | null; progress: never };
   /** Outlines of every label on every page; they arrive page by page. */
   read: {

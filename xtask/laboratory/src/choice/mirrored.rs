@@ -1,15 +1,12 @@
 //! What is made of components that lie beside each other as in no knee.
 
 use anyhow::Result;
-use fluoropose::finder::{Doubt, FlippedFit, Verdict};
+use fluoropose::finder::{Doubt, FlippedFit, FlippedLooks, Verdict};
 use fluoropose::joint::beside::Beside;
 use fluoropose::mesh::anatomy::KneeComponent;
 use rayon::prelude::*;
 
 use super::decide::Decision;
-
-/// Frames of a film that are looked at as if they were flipped.
-const LOOKED_AT: usize = 3;
 
 /// Doubts poses of a component that lies beside the other as in no knee, by what is told of each frame.
 pub fn doubt_mirrored(decisions: &mut [Option<Decision>], told: &[Option<Beside>]) {
@@ -25,9 +22,8 @@ pub fn doubt_mirrored(decisions: &mut [Option<Decision>], told: &[Option<Beside>
     }
 }
 
-/// How mirrored models fit some frames, spread over all that have both poses; `apart` is how far the components lie beside each other in
-/// each, `fit` looks at a component in a frame. The femur comes first: where most of its fits tell that nothing is flipped, no more is
-/// looked at, and the answer is one frame without fits.
+/// How mirrored models fit some frames ([`FlippedLooks`]); `apart` is how far the components lie beside each other in each, `fit` looks
+/// at a component in a frame.
 ///
 /// # Errors
 /// Those of `fit`.
@@ -35,29 +31,15 @@ pub fn fit_flipped(
     apart: &[f64],
     fit: impl Fn(KneeComponent, usize) -> Result<Option<FlippedFit>> + Sync,
 ) -> Result<Vec<Option<[FlippedFit; 2]>>> {
-    let all = |component, frames: &[usize]| -> Result<Vec<Option<FlippedFit>>> {
-        let fits = frames.par_iter().map(|&frame| fit(component, frame));
-        fits.collect()
-    };
-    let frames = looked_at_flipped(apart);
-    let (most, rest) = frames.split_at(frames.len().min(frames.len() / 2 + 1));
-    let mut femur = all(KneeComponent::Femur, most)?;
-    if femur.iter().all(|fit| fit.is_none_or(|fit| fit.is_poor())) {
-        return Ok(vec![None]);
+    let mut looks = FlippedLooks::new(apart);
+    while !looks.wanted().is_empty() {
+        let fits = looks.wanted().par_iter();
+        let fits = fits.map(|&(component, frame)| fit(component, frame));
+        for fit in fits.collect::<Result<Vec<_>>>()? {
+            looks.take(fit);
+        }
     }
-    femur.extend(all(KneeComponent::Femur, rest)?);
-    let tibia = all(KneeComponent::Tibia, &frames)?;
-    let both = femur.into_iter().zip(tibia);
-    let both = both.map(|(femur, tibia)| Some([femur?, tibia?]));
-    Ok(both.collect())
-}
-
-/// Those of the frames with both poses that are looked at as if they were flipped.
-fn looked_at_flipped(apart: &[f64]) -> Vec<usize> {
-    let frames: Vec<usize> = (0..apart.len()).filter(|&k| apart[k].is_finite()).collect();
-    let step = frames.len().div_ceil(LOOKED_AT).max(1);
-    let spread = frames.iter().copied().skip(step / 2);
-    spread.step_by(step).collect()
+    Ok(looks.fits())
 }
 
 #[cfg(test)]

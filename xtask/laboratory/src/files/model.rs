@@ -4,12 +4,50 @@ use std::path::Path;
 
 use anyhow::Result;
 use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::SuspectedUnit;
 use fluoropose::mesh::anatomy::{KneeComponent, component_by_shape};
 use fluoropose_decode::decode_model;
 use fluoropose_phantom::implant::Triangles;
+use serde::Deserialize;
 
 use super::role::Role;
 use super::text::read;
+
+/// The unit of length of a model's file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// Millimetres.
+    #[default]
+    Mm,
+    /// Centimetres.
+    Cm,
+    /// Metres.
+    M,
+    /// Inches.
+    In,
+}
+
+impl Unit {
+    /// Those that a size speaks for, as a study names them.
+    pub(super) fn of(suspected: SuspectedUnit) -> Vec<&'static str> {
+        match suspected {
+            SuspectedUnit::Metres => vec!["m"],
+            SuspectedUnit::CentimetresOrInches => vec!["cm", "in"],
+        }
+    }
+
+    /// A length of the file in millimetres; one in millimetres stays as it is, to the last bit.
+    pub fn in_mm(self, length: f32) -> f32 {
+        let mm = match self {
+            Self::Mm => return length,
+            Self::Cm => 10.0,
+            Self::M => 1000.0,
+            Self::In => 25.4,
+        };
+        (f64::from(length) * mm) as f32
+    }
+}
 
 /// A built-in implant as the core takes it.
 ///
@@ -36,11 +74,25 @@ pub fn read_model(path: &Path) -> Result<OwnedModel> {
 /// # Errors
 /// Those of [`read_model`].
 pub fn read_model_and_remarks(path: &Path) -> Result<(OwnedModel, Vec<String>)> {
+    read_model_in(path, Unit::Mm, None)
+}
+
+/// The same of a file in another unit, in millimetres; of a component, where it is known which one.
+///
+/// # Errors
+/// Those of [`read_model`].
+pub(super) fn read_model_in(
+    path: &Path,
+    unit: Unit,
+    role: Option<Role>,
+) -> Result<(OwnedModel, Vec<String>)> {
     let model = decode_model(&read(path)?, &path.display().to_string())?;
-    let (vertices, triangles) = (model.vertices, model.triangles);
-    let owned = OwnedModel::new(vertices.into_flattened(), triangles.into_flattened())?;
+    let (vertices, triangles) = (model.vertices.into_flattened(), model.triangles);
+    let vertices = vertices.into_iter().map(|x| unit.in_mm(x)).collect();
+    let owned = OwnedModel::new(vertices, triangles.into_flattened())?;
     let mut remarks = model.notes;
     remarks.extend(owned.remarks());
+    remarks.extend(role.and_then(|role| shape_doubt(&owned, role)));
     Ok((owned, remarks))
 }
 
@@ -64,9 +116,7 @@ pub fn read_model_and_remarks_of(
     path: &Path,
     role: Option<Role>,
 ) -> Result<(OwnedModel, Vec<String>)> {
-    let (owned, mut remarks) = read_model_and_remarks(path)?;
-    remarks.extend(role.and_then(|role| shape_doubt(&owned, role)));
-    Ok((owned, remarks))
+    read_model_in(path, Unit::Mm, role)
 }
 
 /// The component that a model has the shape of, where that is the other one.
@@ -90,6 +140,7 @@ pub fn shape_doubt(model: &OwnedModel, role: Role) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::Component;
     use fluoropose_phantom::implant::{Parameters, femur, tibia};
 
     #[test]
@@ -102,5 +153,45 @@ mod tests {
             let doubt = shape_doubt(model, role.other()).expect("a doubt");
             assert!(doubt.contains("swapped"), "{doubt}");
         }
+    }
+
+    #[test]
+    fn a_model_in_another_unit_is_read_in_millimetres() {
+        let made = femur(&Parameters::default()).expect("usual");
+        let mm = made.vertices.clone();
+        let path = std::env::temp_dir().join(format!("fluoropose-unit-{}.stl", std::process::id()));
+        for (unit, per_mm) in [
+            (Unit::Mm, 1.0),
+            (Unit::Cm, 0.1),
+            (Unit::M, 0.001),
+            (Unit::In, 1.0 / 25.4),
+        ] {
+            let mut written = made.clone();
+            written.vertices = mm.iter().map(|one| one.map(|x| x * per_mm)).collect();
+            let mut bytes = Vec::new();
+            fluoropose_phantom::stl::write(&written, &mut bytes).expect("a file");
+            std::fs::write(&path, bytes).expect("written");
+            let component = |unit: &str| -> Component {
+                toml::from_str(&format!("name = 'femur'\nmodel = {path:?}\n{unit}"))
+                    .expect("a component")
+            };
+            let stated = component(&format!("unit = '{}'", format!("{unit:?}").to_lowercase()));
+            let (model, remarks) = stated.read_model_and_remarks().expect("a model");
+            assert!(remarks.is_empty(), "{unit:?}: {remarks:?}");
+            let radius = model.as_model().bounds().radius;
+            let expected = OwnedModel::new(
+                mm.clone().into_flattened(),
+                made.triangles.clone().into_flattened(),
+            );
+            let expected = expected.expect("valid").as_model().bounds().radius;
+            assert!((radius / expected - 1.0).abs() < 1e-6, "{unit:?}: {radius}");
+            let (_, remarks) = component("").read_model_and_remarks().expect("a model");
+            let word = format!("{unit:?}").to_lowercase();
+            let is_told = remarks
+                .iter()
+                .any(|one| one.contains(&format!("unit = \"{word}\"")));
+            assert_eq!(is_told, unit != Unit::Mm, "{unit:?}: {remarks:?}");
+        }
+        std::fs::remove_file(&path).expect("it was there");
     }
 }

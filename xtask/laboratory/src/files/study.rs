@@ -10,11 +10,14 @@ use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
 use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm};
+use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::suspected_unit;
 use fluoropose_phantom::implant::Side;
 
 use super::name::check_file_name;
 use keys::Checked;
 
+use super::model::{Unit, read_model_in};
 use super::role::Role;
 use super::text::read_text;
 
@@ -108,8 +111,11 @@ impl StatedFilm {
 pub struct Component {
     /// What it is called.
     pub name: String,
-    /// Its model, mm.
+    /// The file of its model.
     pub model: PathBuf,
+    /// The unit of length of that file.
+    #[serde(default)]
+    pub unit: Unit,
     /// Which component of the knee it is, where its name does not say so.
     pub role: Option<Role>,
     /// Reference poses (.jts), a row a frame.
@@ -139,6 +145,36 @@ impl Component {
     /// Which component of the knee it is: by the key `role`, or by the names femur and tibia.
     pub fn role(&self) -> Option<Role> {
         self.role.or_else(|| Role::of_name(&self.name))
+    }
+
+    /// Its model in millimetres. What there is to say of the file is said on standard error.
+    ///
+    /// # Errors
+    /// Names the file and what is wrong with it.
+    pub fn read_model(&self) -> Result<OwnedModel> {
+        let (owned, remarks) = self.read_model_and_remarks()?;
+        for remark in remarks {
+            eprintln!("{}: {remark}", self.model.display());
+        }
+        Ok(owned)
+    }
+
+    /// The same with what there is to say, a sentence each.
+    ///
+    /// # Errors
+    /// Those of [`Self::read_model`].
+    pub fn read_model_and_remarks(&self) -> Result<(OwnedModel, Vec<String>)> {
+        let (owned, mut remarks) = read_model_in(&self.model, self.unit, self.role())?;
+        let suspected = suspected_unit(&owned.as_model().bounds());
+        remarks.extend(suspected.map(|unit| {
+            let words = Unit::of(unit).into_iter();
+            let words: Vec<_> = words.map(|unit| format!("unit = \"{unit}\"")).collect();
+            format!(
+                "a file that stays as it is can be taken with {} under its [[component]] in the study",
+                words.join(" or ")
+            )
+        }));
+        Ok((owned, remarks))
     }
 }
 

@@ -8,9 +8,7 @@ use fluoropose::math::{Vector3, dot, norm, scale, subtract};
 use fluoropose::pose::{Pose, geodesic_deg};
 use serde::Serialize;
 
-use crate::files::{
-    Component, Study, csv_fields, read_model, read_poses_of, read_text, write_json,
-};
+use crate::files::{Component, Study, csv_fields, read_poses_of, read_text, write_json};
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::options::study_files;
 
@@ -229,7 +227,7 @@ fn of_component(component: &Component, poses: &Path, frames: Option<&Path>) -> R
         .zip(good)
         .map(|(pose, is_good)| Found { pose, is_good })
         .collect();
-    let middle = read_model(&component.model)?.as_model().bounds().centre;
+    let middle = component.read_model()?.as_model().bounds().centre;
     Ok(Some(Row::of(name, &middle, &reference, &found)))
 }
 

@@ -14,9 +14,7 @@ use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use serde::Serialize;
 
-use crate::files::{
-    Component, MaskBuffer, Study, grey, read_calibration, read_model_of, read_poses, write_json,
-};
+use crate::files::{Component, MaskBuffer, Study, grey, read_calibration, read_poses, write_json};
 
 use crate::finding::prompts::Kind;
 
@@ -145,7 +143,7 @@ pub fn run(args: Args) -> Result<()> {
         distance: component.distance_mm,
         ..ViewOptions::default()
     };
-    let model = read_model_of(&component.model, component.role())?;
+    let model = component.read_model()?;
     let mesh = model.as_model();
     let distance = views.distance_for(&calibration);
     let library = build_library(mesh, source.camera, &views, distance)?;

@@ -80,6 +80,11 @@ const COMPONENT: &[Key] = &[
     needed("name", Kind::Text, r#"name = "femur""#),
     needed("model", Kind::Path, r#"model = "femur.stl""#),
     optional(
+        "unit",
+        Kind::OneOf(&["mm", "cm", "m", "in"]),
+        r#"unit = "m", where the model's file is not in mm"#,
+    ),
+    optional(
         "role",
         Kind::OneOf(&["femur", "tibia"]),
         r#"role = "femur""#,

@@ -14,7 +14,7 @@ use fluoropose::refine::{RefineBuffers, RefineOptions, film_profiles};
 
 use super::native::SearchBuffers;
 use super::row::{Row, median, timed};
-use crate::files::{Study, owned, read_calibration, read_model};
+use crate::files::{Study, owned, read_calibration};
 use crate::finding::{Built, EdgeOptions, Finder, Method, ViewOptions, build_library, image};
 use crate::progress::announce;
 use crate::sequence::{Folders, Sequence, Source};
@@ -71,7 +71,7 @@ fn component(studies: &Path, (study, name, masks): (&str, &str, &str)) -> Result
     };
     let source = Source::read(&folders, &calibration)?;
     let sequence = source.disturbed(&crate::noise::DisturbanceOptions::default())?;
-    let owned = read_model(&component.model)?;
+    let owned = component.read_model()?;
     let model = owned.as_model();
     let distance = ViewOptions::default().distance_for(&calibration);
     let what = format!("{study} {name} ({} faces)", model.triangles().len());

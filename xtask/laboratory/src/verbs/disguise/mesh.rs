@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::lens::Axes;
 use super::plan::{Mesh, Models};
-use crate::files::{read, write_bytes, write_text};
+use crate::files::{Component, read, write_bytes, write_text};
 
 /// How far away an origin may lie, mm along each axis.
 const ORIGIN_MM: f64 = 150.0;
@@ -48,24 +48,24 @@ pub(super) fn axes(models: &Models, mirrored: bool, random: &mut ChaCha8Rng) -> 
     }
 }
 
-/// Writes the model of a file in other axes.
+/// Writes the model of a component in other axes.
 ///
 /// # Errors
 /// Names the file.
 pub(super) fn write(
-    from: &Path,
+    from: &Component,
     to: &Path,
     models: &Models,
     axes: &Axes,
     mirrored: bool,
     random: &mut ChaCha8Rng,
 ) -> Result<()> {
-    let model = decode_model(read(from)?, &from.display().to_string())?;
+    let model = decode_model(read(&from.model)?, &from.model.display().to_string())?;
     let mut mesh = Triangles {
         vertices: model
             .vertices
             .into_iter()
-            .map(|one| axes.vertex(one))
+            .map(|one| axes.vertex(one.map(|x| from.unit.in_mm(x))))
             .collect(),
         triangles: model.triangles,
     };

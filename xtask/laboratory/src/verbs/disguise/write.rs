@@ -176,7 +176,7 @@ struct Known<'s> {
 
 impl<'s> Known<'s> {
     fn read(component: &'s Component, frames: &Path, chosen: &[usize]) -> Result<Self> {
-        let middle = read_model(&component.model)?.as_model().bounds().centre;
+        let middle = component.read_model()?.as_model().bounds().centre;
         let poses = component.reference.as_ref().map(|path| {
             let all = read_poses_of(path, Some(frames))?;
             let pose = |&frame: &usize| Some(in_front(all.get(frame)?.as_ref()?));
@@ -208,7 +208,7 @@ impl<'s> Known<'s> {
         let axes = mesh::axes(&plan.models, mirrored, random);
         let model = format!("{name}.{}", plan.models.mesh.ending());
         mesh::write(
-            &self.component.model,
+            self.component,
             &out.join(&model),
             &plan.models,
             &axes,

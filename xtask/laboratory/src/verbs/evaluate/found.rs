@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use super::reference::Reference;
 use super::request::Request;
 use crate::choice::{Decision, decide};
-use crate::files::{Component, MaskBuffer, Role, Study, read_model_of};
+use crate::files::{Component, MaskBuffer, Role, Study};
 use crate::finding::misfits::Misfits;
 use crate::finding::{
     Built, Filmed, Finder, FrameFound, Method, Stated, ViewOptions, axes_of, bring_onto_frames,
@@ -197,7 +197,7 @@ impl<'s> Part<'s> {
     ) -> Result<Self> {
         let mut part = Self {
             component,
-            model: read_model_of(&component.model, component.role())?,
+            model: component.read_model()?,
             reference: Reference::of(component, frames)?,
             found: Vec::new(),
         };

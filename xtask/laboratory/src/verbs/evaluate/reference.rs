@@ -7,7 +7,7 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 
 use super::table::Row;
-use crate::files::{Component, read_model, read_poses_of};
+use crate::files::{Component, read_poses_of};
 use crate::measure::accuracy::{Errors, is_wrong_side, mean, median_absolute, rms};
 
 /// Reference poses of a component.
@@ -23,7 +23,7 @@ impl Reference {
         let Some(path) = &component.reference else {
             return Ok(None);
         };
-        let model = read_model(&component.model)?;
+        let model = component.read_model()?;
         Ok(Some(Self {
             poses: read_poses_of(path, frames)?,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),

@@ -10,7 +10,7 @@ use fluoropose::mesh::anatomy::{AnatomicalAxes, field_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 
-use crate::files::{Component, MaskBuffer, Role, Study, read_model, read_poses};
+use crate::files::{Component, MaskBuffer, Role, Study, read_poses};
 use crate::finding::{Neighbour, axes_of, covered};
 
 /// The femoral poses of each frame, where they are known, and both components as their shapes tell them.
@@ -124,7 +124,7 @@ impl Shape {
         let role = component
             .role()
             .context("the component is no part of a knee")?;
-        let owned = read_model(&component.model)?;
+        let owned = component.read_model()?;
         let model = owned.as_model();
         let told = axes_of(&model, role, component.axes.as_deref())?;
         let unsigned = || {

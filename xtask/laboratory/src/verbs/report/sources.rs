@@ -11,8 +11,8 @@ use fluoropose_report::Input;
 use fluoropose_report::cell::plain;
 
 use crate::files::{
-    Component, PoseRows, Role, Study, csv_fields, name_of, read, read_model_of, read_poses,
-    read_poses_of, read_text, sha256,
+    Component, PoseRows, Role, Study, csv_fields, name_of, read, read_poses, read_poses_of,
+    read_text, sha256,
 };
 
 /// A component with its poses.
@@ -196,7 +196,7 @@ impl Body {
         Ok(Self {
             name: component.name.clone(),
             stated_axes: component.axes.clone(),
-            model: read_model_of(&component.model, component.role())?,
+            model: component.read_model()?,
             poses: match poses {
                 // Its covariances are put to the frames with them.
                 Some(_) => read_poses(&file)?,

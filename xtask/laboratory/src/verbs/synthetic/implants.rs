@@ -8,7 +8,7 @@ use fluoropose::pose::Pose;
 use fluoropose_phantom::implant::{Side, Triangles};
 use fluoropose_phantom::sequence::Implants;
 
-use crate::files::{Component, Role, Study, read_model_and_remarks_of};
+use crate::files::{Component, Role, Study};
 use crate::finding::axes_of;
 
 /// Where the origin of a tray lies below its upper side, mm.
@@ -29,7 +29,7 @@ pub(super) fn of_study(file: &Path, side: Side, stretch: [f64; 3]) -> Result<Imp
         let of_role = |one: &&Component| one.role() == Some(role);
         let component = study.components.iter().find(of_role);
         let component = component.with_context(|| format!("the study has no {role:?}"))?;
-        let (model, _) = read_model_and_remarks_of(&component.model, Some(role))?;
+        let (model, _) = component.read_model_and_remarks()?;
         let model = model.as_model();
         let axes = axes_of(&model, role, component.axes.as_deref())?;
         let axes = axes.with_context(|| {

@@ -17,9 +17,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 use rayon::prelude::*;
 
 use super::request::{Listener, Told};
-use crate::files::{
-    Component, Film, MaskBuffer, Role, grey, other_shape, read_model_and_remarks_of,
-};
+use crate::files::{Component, Film, MaskBuffer, Role, grey, other_shape};
 use crate::finding::{Built, ViewOptions, axes_of, build_library, covered};
 use crate::options::Pair;
 
@@ -56,7 +54,7 @@ pub(super) fn read_models(
     components: &[Component],
     listener: &Listener,
 ) -> Result<Vec<OwnedModel>> {
-    let read = |one: &Component| read_model_and_remarks_of(&one.model, one.role());
+    let read = |one: &Component| one.read_model_and_remarks();
     let read: Vec<_> = components.par_iter().map(read).collect();
     let told = components.iter().zip(read).map(|(one, read)| {
         let (model, remarks) = read?;
