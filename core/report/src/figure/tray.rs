@@ -175,9 +175,12 @@ fn line_of(flexion: f64, at: impl Fn(usize) -> f64) -> Option<Line> {
     is_known.then_some((flexion, medial, lateral))
 }
 
-/// The first and the last one's, beside the lateral ends.
+/// The first and the last one's, beyond all lateral ends: lines lie over each other's.
 fn flexions(drawing: &mut Drawing, drawn: &[Line]) {
-    // Beside the lateral ends, where lines are apart.
+    let across = drawn.iter().map(|(.., lateral)| lateral[0]);
+    let (left, right) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), x| {
+        (left.min(x), right.max(x))
+    });
     let mut ends: Vec<_> = [drawn.first(), drawn.last()]
         .into_iter()
         .flatten()
@@ -192,14 +195,13 @@ fn flexions(drawing: &mut Drawing, drawn: &[Line]) {
             .collect::<Vec<_>>(),
     );
     for (&&(level, medial, lateral), y) in ends.iter().zip(apart) {
-        let out = if lateral[0] < medial[0] { -7.0 } else { 7.0 };
-        let anchor = if out < 0.0 {
-            Anchor::End
+        let (x, anchor) = if lateral[0] < medial[0] {
+            (left - 7.0, Anchor::End)
         } else {
-            Anchor::Start
+            (right + 7.0, Anchor::Start)
         };
         let text = format!("{}\u{b0}", short(level));
-        drawing.words([lateral[0] + out, y + 4.0], anchor, 10.5, text);
+        drawing.words([x, y + 4.0], anchor, 10.5, text);
     }
 }
 

@@ -39,7 +39,11 @@ export function Plot(props: PlotProps) {
     if (!element) return undefined;
     const made = new uPlot(optionsOf(now, inksOf(element), sizeOf(element)), [[], []], element);
     plot.current = made;
-    const watcher = new ResizeObserver(() => made.setSize(sizeOf(element)));
+    const watcher = new ResizeObserver(() => {
+      made.setSize(sizeOf(element));
+      // Room in pixels is another part of the range.
+      made.setData(made.data, true);
+    });
     watcher.observe(element);
     return () => {
       watcher.disconnect();
@@ -71,10 +75,10 @@ function optionsOf(now: Now, inks: Inks, size: { width: number; height: number }
     padding: [SIGN, 8, 0, 0],
     legend: { show: false },
     cursor: { points: { show: false }, drag: { x: false, y: false }, y: false },
-    scales: { x: { time: false, range: () => acrossOf(now.current) }, y: { range: () => [...now.current.range] as [number, number] } },
+    scales: { x: { time: false, range: () => acrossOf(now.current) }, y: { range: (plot) => withRoom(now.current.range, plot.height - SIGN - BELOW) } },
     series: [{}, { scale: 'y', paths: () => null, points: { show: false } }],
     axes: [
-      { ...axis, size: 24, gap: 2, space: 42, incrs: now.current.over === 'frame' ? WHOLE : undefined } as uPlot.Axis,
+      { ...axis, size: BELOW, gap: 2, space: 42, incrs: now.current.over === 'frame' ? WHOLE : undefined } as uPlot.Axis,
       { ...axis, size: 44, gap: 2, space: (_, __, ___, ____, rows) => (rows < LOW ? 16 : 26), scale: 'y' },
     ],
     hooks: {
@@ -100,6 +104,16 @@ const LOW = 90;
 
 /** Room above a plot for what its positive numbers mean, px. */
 const SIGN = 16;
+/** Room below it for the numbers of its axis, px. */
+const BELOW = 24;
+/** As far from the middle of a point as it is drawn, px. */
+const POINT = 5;
+
+/** A range and as much beyond either end as keeps points whole, however low the plot is. */
+function withRoom([least, most]: readonly [number, number], rows: number): [number, number] {
+  const margin = rows > 4 * POINT ? ((most - least) * POINT) / (rows - 2 * POINT) : 0;
+  return [least - margin, most + margin];
+}
 
 /** As many as tell the ticks apart, and no more. */
 function decimalsOf(ticks: readonly number[]): number {
