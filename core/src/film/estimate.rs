@@ -9,13 +9,15 @@ mod equations;
 mod guards;
 mod sharpen;
 mod solver;
+#[cfg(feature = "alloc")]
+pub(super) mod standing;
 mod unknowns;
 
 use core::fmt;
 
 use drawing::sharpening;
 use guards::Confirmed;
-use solver::{FEW, Fit};
+use solver::Fit;
 use unknowns::{AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, RADIUS, UNKNOWNS};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
@@ -33,10 +35,6 @@ const LEAST_DEVIATION: [f64; 3] = [0.06, 0.05, 0.1];
 const SHARPENED_DEVIATION: [f64; 2] = [0.15, 0.2];
 /// The same of the curvature where no two components tell it alike.
 const UNTOLD_DEVIATION: f64 = 0.6;
-
-/// From so many standard deviations on constants are others, and steps in which that shows.
-const FAR_OFF: f64 = 3.0;
-const NEAR_STEPS: usize = 8;
 
 /// The constants of a film and how sure they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -183,47 +181,6 @@ pub fn estimate_with(
         profiles: sums.count,
         residual: sqrt(sums.squares / (sums.count * super::profile::READINGS) as f64),
     })
-}
-
-/// Whether profiles lead from the constants that are known, of `models` by the numbers of their components, to others that lie more than three
-/// standard deviations away. Only minima near these and of other metals are looked for, on some of the profiles: a small part of what an estimate
-/// takes.
-#[must_use]
-pub(super) fn leads_elsewhere(
-    profiles: &mut [FilmProfile],
-    models: &[FilmModel],
-    given: GivenFilm,
-) -> bool {
-    let (Some(contrast), Some(first)) = (contrast(profiles), models.first()) else {
-        return false;
-    };
-    profiles.iter_mut().for_each(|profile| profile.used = true);
-    let sharpening = first.constants.sharpening;
-    let mut fit = Fit {
-        every: (profiles.len() / FEW).max(1),
-        profiles,
-        components: models.len().min(MOST_COMPONENTS),
-        contrast,
-        only: None,
-        hold: false,
-        sharpened: sharpening.amount > 0.0,
-        given,
-    };
-    let known = solver::known(models, contrast);
-    let Some(at) = fit.best_near(&known, NEAR_STEPS) else {
-        return false;
-    };
-    let is_far = |unknown: usize, variance: f64| {
-        let unit = if unknown == CURVATURE { contrast } else { 1.0 };
-        (at[unknown] - known[unknown]).abs() > FAR_OFF * sqrt(variance) * unit
-    };
-    let of_metal = models.iter().take(MOST_COMPONENTS).enumerate();
-    let mut of_metal = of_metal.map(|(number, model)| (2 + number, model.covariance[2][2]));
-    let of_film = [CURVATURE, BLUR].map(|unknown| (unknown, first.covariance[unknown][unknown]));
-    of_film
-        .into_iter()
-        .any(|(unknown, variance)| is_far(unknown, variance))
-        || of_metal.any(|(unknown, variance)| is_far(unknown, variance))
 }
 
 /// The mean difference between grey values beside metal and behind it; `None` where metal is not darker.

@@ -3,7 +3,8 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with, leads_elsewhere};
+use super::estimate::standing::leads_elsewhere;
+use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
 use super::given::GivenFilm;
 use super::model::FilmModel;
 use super::profile::FilmProfile;

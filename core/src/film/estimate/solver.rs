@@ -10,20 +10,20 @@ use super::unknowns::{
 };
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::given::GivenFilm;
-use crate::film::model::{FilmModel, LEAST_BLUR, MOST_BLUR};
+use crate::film::model::{LEAST_BLUR, MOST_BLUR};
 use crate::film::profile::{FilmProfile, READINGS};
-use crate::film::sharpening::{MOST_AMOUNT, RADII, Sharpening};
+use crate::film::sharpening::{MOST_AMOUNT, RADII};
 use crate::math::{ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.
 const STARTS: [f64; 8] = [-0.3, 0.3, 0.9, 1.5, 2.2, 3.0, 4.0, 5.5];
-const ATTENUATIONS: [f64; 2] = [-1.8, -0.4];
+pub(super) const ATTENUATIONS: [f64; 2] = [-1.8, -0.4];
 /// What is expected of logarithms before anything was read, and its standard deviation: wide, for what data do not tell, as
 /// the attenuation of metal that lets nothing pass.
 const EXPECTED_BLUR: [f64; 2] = [-0.1, 0.8];
-const EXPECTED_ATTENUATION: [f64; 2] = [-1.2, 1.0];
+pub(super) const EXPECTED_ATTENUATION: [f64; 2] = [-1.2, 1.0];
 const EXPECTED_AMOUNT: [f64; 2] = [0.0, 0.8];
-const EXPECTED_RADIUS: [f64; 2] = [1.0, 0.6];
+pub(super) const EXPECTED_RADIUS: [f64; 2] = [1.0, 0.6];
 /// Changes over which derivatives are taken.
 const CHANGE: f64 = 0.03;
 /// Residual of a profile, as a part of the contrast, from which on it counts less: films are shown in any units.
@@ -36,27 +36,8 @@ pub(super) const FEW: usize = 320;
 /// Consecutive profiles that err alike.
 const TOGETHER: usize = 8;
 
-fn ln_of_blur(blur_px: f64) -> f64 {
+pub(super) fn ln_of_blur(blur_px: f64) -> f64 {
     ln(blur_px.clamp(LEAST_BLUR, MOST_BLUR))
-}
-
-/// The unknowns as they are known of components by their numbers, on profiles of a contrast.
-pub(super) fn known(models: &[FilmModel], contrast: f64) -> Vector {
-    let mut at = [EXPECTED_ATTENUATION[0]; UNKNOWNS];
-    let Some(FilmModel { constants, .. }) = models.first() else {
-        return at;
-    };
-    let Sharpening { amount, radius_px } = constants.sharpening;
-    at[CURVATURE] = constants.curvature * contrast;
-    at[BLUR] = ln_of_blur(constants.blur_px);
-    (at[AMOUNT], at[RADIUS]) = match amount > 0.0 {
-        true => (amount, ln(radius_px.clamp(RADII[0], RADII[1]))),
-        false => (0.0, EXPECTED_RADIUS[0]),
-    };
-    for (value, model) in at[2..AMOUNT].iter_mut().zip(models) {
-        *value = ln(model.attenuation);
-    }
-    at
 }
 
 /// Profiles and which of them are looked at.
@@ -125,26 +106,6 @@ impl Fit<'_> {
         let (_, at) = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         self.find_shifts(&at);
         Some(at)
-    }
-
-    /// The best that constants lead to, and these with one component of another metal.
-    pub(super) fn best_near(&mut self, known: &Vector, steps: usize) -> Option<Vector> {
-        let components = 2..2 + self.components;
-        let of_other_metal = components.flat_map(|unknown| {
-            ATTENUATIONS.map(|attenuation| {
-                let mut other = *known;
-                other[unknown] = attenuation;
-                other
-            })
-        });
-        let starts = core::iter::once(*known).chain(of_other_metal);
-        let led_to = starts.filter_map(|mut at| {
-            self.find_shifts(&at);
-            let cost = self.improve(&mut at, steps)?;
-            Some((cost, at))
-        });
-        let best = led_to.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(best.1)
     }
 
     /// What constants make of profiles.

@@ -226,6 +226,7 @@ fn a_frame_whose_pose_is_wrong_is_left_out() {
     assert!(out.clone().count() >= 30 && out.clone().any(|p| p.component == 1 && p.frame == 2));
 }
 
+#[cfg(feature = "alloc")]
 #[test]
 fn constants_stand_by_what_they_were_learnt_from_and_fall_by_films_of_others() {
     let film = both(linear, linear).expect("told");
@@ -233,7 +234,7 @@ fn constants_stand_by_what_they_were_learnt_from_and_fall_by_films_of_others() {
     let leads = |models: &[FilmModel], shown: fn(f64) -> f64| {
         let mut all = profiles(0, 0.7, shown);
         all.extend(profiles(1, 0.2, shown));
-        leads_elsewhere(&mut all, models, GivenFilm::default())
+        standing::leads_elsewhere(&mut all, models, GivenFilm::default())
     };
     assert!(!leads(&known, linear));
     assert!(leads(&known, logarithmic));
