@@ -4,30 +4,27 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{
-    Anchor, Cell, Conclusion, KnownBeside, KnownFemur, Settling, State, conclude, trusted_depths,
-};
-use fluoropose::joint::beside::Beside;
+use fluoropose::follow::{Cell, Conclusion, State};
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::EulerPose;
 use fluoropose::refine::Polarity;
 use fluoropose_report::counted;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::anchors::{again, fill, fill_in_joint};
 use super::constants::{learn_again, learn_film};
-use super::follow::follow;
+use super::followed::followed;
 use super::journal::Journal;
+use super::judged::{good, judged};
 use super::metal::begun;
 use super::mirrored::beside;
 use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
-use super::sides::{Margins, settle, up_to_a_choice};
+use super::sides::Margins;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
+    Film, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
 };
 use crate::finding::Stated;
 
@@ -177,144 +174,6 @@ fn digest(
     }
     let digest: [u8; 32] = inputs.finalize().into();
     Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-/// All components, side by side as far as they need no other: a tibia waits for its femur where its sides are chosen. A component that is lost after
-/// all is looked for beside the other one of its joint.
-fn followed(
-    run: &Run<'_>,
-    parts: &[Part<'_>],
-    anchors: &[Vec<Anchor>],
-) -> Result<(Vec<Vec<Cell>>, Vec<Margins>)> {
-    let alone = |(part, anchors): (&Part<'_>, &Vec<Anchor>)| -> Result<(Vec<Cell>, Settling)> {
-        let mut cells = of_part(run, part, anchors)?;
-        let mut settling = Settling::new(part.middle(), 0..cells.len());
-        if up_to_a_choice(run, part, &mut settling, &mut cells)? && !is_tibia(part) {
-            settle(run, part, None, &mut settling, &mut cells)?;
-        }
-        Ok((cells, settling))
-    };
-    let each = parts.par_iter().zip(anchors).map(alone);
-    let each = each.collect::<Result<Vec<_>>>()?;
-    let (mut films, mut settlings): (Vec<_>, Vec<_>) = each.into_iter().unzip();
-    for (number, part) in parts.iter().enumerate().filter(|(_, part)| is_tibia(part)) {
-        let femur = femur_of(part, parts, &films);
-        let settling = &mut settlings[number];
-        settle(run, part, femur.as_ref(), settling, &mut films[number])?;
-    }
-    for (number, part) in parts.iter().enumerate() {
-        let Some(other) = other_of(number, parts) else {
-            continue;
-        };
-        let known = trusted(run, (other, parts), &films, &margins_of(&settlings, &films));
-        let cells = &mut films[number];
-        if fill_in_joint(run, (part, cells), (&parts[other], &known))? {
-            let mut settling = Settling::new(part.middle(), 0..cells.len());
-            let femur = femur_of(part, parts, &films);
-            let cells = &mut films[number];
-            if up_to_a_choice(run, part, &mut settling, cells)? {
-                settle(run, part, femur.as_ref(), &mut settling, cells)?;
-            }
-            settlings[number] = settling;
-        }
-    }
-    let margins = margins_of(&settlings, &films);
-    Ok((films, margins))
-}
-
-fn margins_of(settlings: &[Settling], films: &[Vec<Cell>]) -> Vec<Margins> {
-    let each = settlings.iter().zip(films);
-    each.map(|(settling, cells)| settling.margins(cells))
-        .collect()
-}
-
-/// A component in those frames alone in which it is good.
-fn trusted(
-    run: &Run<'_>,
-    (number, parts): (usize, &[Part<'_>]),
-    films: &[Vec<Cell>],
-    margins: &[Margins],
-) -> Vec<Cell> {
-    let judged = judged(run, (number, parts), films, margins, &[]);
-    let each = judged.iter().zip(&films[number]);
-    let trusted = |(one, cell): (&Conclusion, &Cell)| match one.is_trusted() {
-        true => *cell,
-        false => Cell::default(),
-    };
-    each.map(trusted).collect()
-}
-
-fn is_tibia(part: &Part<'_>) -> bool {
-    part.role() == Some(Role::Tibia)
-}
-
-/// The other component of a component's joint.
-fn other_of(number: usize, parts: &[Part<'_>]) -> Option<usize> {
-    let own = parts[number].role()?;
-    parts
-        .iter()
-        .position(|other| other.role() == Some(own.other()))
-}
-
-/// A component followed by itself.
-fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cell>> {
-    let mut cells = vec![Cell::default(); run.film.count()];
-    let anchors = again(run, part, anchors)?;
-    follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
-    fill(run, part, &mut cells)?;
-    Ok(cells)
-}
-
-/// The femur of a tibia, where both components' axes are known.
-fn femur_of(part: &Part<'_>, parts: &[Part<'_>], films: &[Vec<Cell>]) -> Option<KnownFemur> {
-    let axes = part.axes.filter(|_| is_tibia(part))?;
-    let is_femur = |part: &Part<'_>| part.role() == Some(Role::Femur);
-    let femur = parts.iter().position(is_femur)?;
-    let in_field = parts[femur].axes?;
-    let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&in_field));
-    Some(KnownFemur {
-        poses: films[femur].iter().map(pose).collect(),
-        axes,
-    })
-}
-
-/// The frames in which each component is good as it was followed, with its poses.
-fn good(
-    run: &Run<'_>,
-    parts: &[Part<'_>],
-    films: &[Vec<Cell>],
-    margins: &[Margins],
-) -> Vec<Vec<(usize, Pose)>> {
-    let of_part = |number: usize| {
-        let trusted = trusted(run, (number, parts), films, margins);
-        let found = trusted.iter().enumerate();
-        let found = found.filter_map(|(frame, cell)| Some((frame, cell.found()?.pose)));
-        found.collect()
-    };
-    (0..parts.len()).map(of_part).collect()
-}
-
-/// A component's whole film judged, with what is told of its `joint`.
-fn judged(
-    run: &Run<'_>,
-    (number, parts): (usize, &[Part<'_>]),
-    films: &[Vec<Cell>],
-    margins: &[Margins],
-    joint: &[Option<Beside>],
-) -> Vec<Conclusion> {
-    let part = &parts[number];
-    let depths = other_of(number, parts).map_or(Vec::new(), |other| {
-        trusted_depths(&films[other], &margins[other], &parts[other].middle())
-    });
-    let femur = femur_of(part, parts, films);
-    let known = KnownBeside {
-        other_depths_mm: &depths,
-        femur: femur.as_ref(),
-        joint,
-        other_shape: part.other_shape(),
-        longest_gap: run.request.interpolate,
-    };
-    conclude(&films[number], &margins[number], &known, &part.middle())
 }
 
 /// Judges, and writes the files.

@@ -1,0 +1,94 @@
+//! Which frames of a component are good, by all that is known of both.
+
+use fluoropose::follow::{Cell, Conclusion, KnownBeside, KnownFemur, conclude, trusted_depths};
+use fluoropose::joint::beside::Beside;
+use fluoropose::pose::Pose;
+
+use super::part::Part;
+use super::run::Run;
+use super::sides::Margins;
+use crate::files::Role;
+
+/// A component's whole film judged, with what is told of its `joint`.
+pub(super) fn judged(
+    run: &Run<'_>,
+    (number, parts): (usize, &[Part<'_>]),
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+    joint: &[Option<Beside>],
+) -> Vec<Conclusion> {
+    let part = &parts[number];
+    let depths = other_of(number, parts).map_or(Vec::new(), |other| {
+        trusted_depths(&films[other], &margins[other], &parts[other].middle())
+    });
+    let femur = femur_of(part, parts, films);
+    let known = KnownBeside {
+        other_depths_mm: &depths,
+        femur: femur.as_ref(),
+        joint,
+        other_shape: part.other_shape(),
+        longest_gap: run.request.interpolate,
+    };
+    conclude(&films[number], &margins[number], &known, &part.middle())
+}
+
+/// A component in those frames alone in which it is good.
+pub(super) fn trusted(
+    run: &Run<'_>,
+    (number, parts): (usize, &[Part<'_>]),
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+) -> Vec<Cell> {
+    let judged = judged(run, (number, parts), films, margins, &[]);
+    let each = judged.iter().zip(&films[number]);
+    let trusted = |(one, cell): (&Conclusion, &Cell)| match one.is_trusted() {
+        true => *cell,
+        false => Cell::default(),
+    };
+    each.map(trusted).collect()
+}
+
+/// The frames in which each component is good as it was followed, with its poses.
+pub(super) fn good(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+) -> Vec<Vec<(usize, Pose)>> {
+    let of_part = |number: usize| {
+        let trusted = trusted(run, (number, parts), films, margins);
+        let found = trusted.iter().enumerate();
+        let found = found.filter_map(|(frame, cell)| Some((frame, cell.found()?.pose)));
+        found.collect()
+    };
+    (0..parts.len()).map(of_part).collect()
+}
+
+pub(super) fn is_tibia(part: &Part<'_>) -> bool {
+    part.role() == Some(Role::Tibia)
+}
+
+/// The other component of a component's joint.
+pub(super) fn other_of(number: usize, parts: &[Part<'_>]) -> Option<usize> {
+    let own = parts[number].role()?;
+    parts
+        .iter()
+        .position(|other| other.role() == Some(own.other()))
+}
+
+/// The femur of a tibia, where both components' axes are known.
+pub(super) fn femur_of(
+    part: &Part<'_>,
+    parts: &[Part<'_>],
+    films: &[Vec<Cell>],
+) -> Option<KnownFemur> {
+    let axes = part.axes.filter(|_| is_tibia(part))?;
+    let is_femur = |part: &Part<'_>| part.role() == Some(Role::Femur);
+    let femur = parts.iter().position(is_femur)?;
+    let in_field = parts[femur].axes?;
+    let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&in_field));
+    Some(KnownFemur {
+        poses: films[femur].iter().map(pose).collect(),
+        axes,
+    })
+}
