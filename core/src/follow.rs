@@ -50,6 +50,8 @@ mod search_order;
 mod search_plan;
 #[cfg(feature = "alloc")]
 mod second_look;
+#[cfg(feature = "alloc")]
+mod set_aside;
 mod settle;
 #[cfg(feature = "alloc")]
 mod settling;
@@ -101,6 +103,8 @@ pub use search_plan::{
 };
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};
+#[cfg(feature = "alloc")]
+pub use set_aside::{set_aside, take_better};
 pub use settle::settled;
 #[cfg(feature = "alloc")]
 pub use settling::{Settling, SettlingStep};

@@ -1,7 +1,7 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, FramePose, Places, RunsToSearch, settled};
+use fluoropose::follow::{Anchor, Cell, FramePose, Places, RunsToSearch, set_aside, settled};
 use fluoropose::pose::Pose;
 
 use super::follow::{follow, mark};
@@ -122,19 +122,22 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
     anchors.iter().map(one).collect()
 }
 
-/// Looks for a component in runs of frames in which it was not found and the other one of its joint is known: where the joint leaves it beside
-/// that. Whether it was found anywhere.
+/// Looks for a component in runs of frames in which it was not found, or lies on other edges by where it is `good`, and the other one of its joint is
+/// known: where the joint leaves it beside that.
 pub(super) fn fill_in_joint(
     run: &Run<'_>,
-    (part, cells): (&Part<'_>, &mut [Cell]),
+    (part, good, cells): (&Part<'_>, &[Cell], &mut Vec<Cell>),
     (other, known): (&Part<'_>, &[Cell]),
-) -> Result<bool> {
+) -> Result<()> {
     let mut runs = RunsToSearch::default();
     let all = 0..cells.len();
-    let mut any = false;
-    while let Some((frame, gap)) = runs.next_beside(cells, known, &all) {
+    loop {
+        *cells = set_aside(cells, good);
+        let Some((frame, gap)) = runs.next_beside(cells, known, &all) else {
+            return Ok(());
+        };
         let Some(&beside) = known[frame].found() else {
-            break;
+            return Ok(());
         };
         let beside = Beside {
             part: other,
@@ -144,11 +147,9 @@ pub(super) fn fill_in_joint(
         let found = in_joint(run, part, frame, beside)?;
         runs.searched(frame, &gap, found.is_some());
         if let Some(found) = found {
-            any = true;
             follow(run, part, &[Anchor::found(frame, found)], gap, cells)?;
         }
     }
-    Ok(any)
 }
 
 /// Looks for a component in runs of frames in which it was not found, and follows it from where it is.

@@ -1,7 +1,7 @@
 //! All components followed over their film, in the order in which one tells of the other.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, Cell, Settling};
+use fluoropose::follow::{Anchor, Cell, Settling, take_better};
 use rayon::prelude::*;
 
 use super::anchors::{again, fill, fill_in_joint};
@@ -41,7 +41,7 @@ pub(super) fn followed(
     Ok((films, margins))
 }
 
-/// Looks for a component that is lost beside the other one of its joint, and settles it once more where it is found.
+/// Looks for a component that is lost, or lies on other edges, beside the other one of its joint, and settles it once more where it is found.
 fn find_lost(
     run: &Run<'_>,
     (number, parts): (usize, &[Part<'_>]),
@@ -51,8 +51,11 @@ fn find_lost(
     let (part, Some(other)) = (&parts[number], other_of(number, parts)) else {
         return Ok(());
     };
-    let known = trusted(run, (other, parts), films, &margins_of(settlings, films));
-    if !fill_in_joint(run, (part, &mut films[number]), (&parts[other], &known))? {
+    let margins = margins_of(settlings, films);
+    let [good, known] = [number, other].map(|part| trusted(run, (part, parts), films, &margins));
+    let mut anew = films[number].clone();
+    fill_in_joint(run, (part, &good, &mut anew), (&parts[other], &known))?;
+    if !take_better(&mut films[number], &anew) {
         return Ok(());
     }
     let femur = femur_of(part, parts, films);
