@@ -1,7 +1,8 @@
 //! Where a component is expected, from frames in which its pose is known.
 
 use crate::math::{
-    Vector3, add, apply, multiply, rotation_by, rotation_vector, scale, subtract, transpose,
+    Vector3, add, apply, atan2, cross, degrees, dot, multiply, norm, rotation_by, rotation_vector,
+    scale, subtract, transpose,
 };
 use crate::pose::Pose;
 
@@ -49,10 +50,27 @@ pub fn between(from: &Pose, to: &Pose, fraction: f64, middle: &Vector3) -> Pose 
     }
 }
 
+/// Angle between the directions of the camera's axis in the model's axes at two poses, degrees: turns in the image plane, and shifts, leave it as it
+/// is.
+#[cfg(feature = "alloc")]
+pub(super) fn out_of_plane_deg(a: &Pose, b: &Pose) -> f64 {
+    between_deg(&a.rotation[2], &b.rotation[2])
+}
+
+/// How far a pose lies off the way between two others in that direction, degrees. Limbs swing fast in the image plane, and hardly out of it.
+pub(super) fn off_out_of_plane_deg(pose: &Pose, [before, after]: [&Pose; 2]) -> f64 {
+    let midway = add(&before.rotation[2], &after.rotation[2]);
+    between_deg(&midway, &pose.rotation[2])
+}
+
+/// Angle between two directions of any length, degrees.
+pub(super) fn between_deg(a: &Vector3, b: &Vector3) -> f64 {
+    degrees(atan2(norm(&cross(a, b)), dot(a, b)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::norm;
     use crate::pose::{EulerPose, geodesic_deg};
     use proptest::prelude::*;
 

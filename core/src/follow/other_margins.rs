@@ -6,10 +6,12 @@ use alloc::vec::Vec;
 use super::cell::Cell;
 use super::false_minimum::elsewhere_margins;
 use super::frame_pose::FramePose;
+use super::motion::between_deg;
 use super::side_margin::{SideMargin, nearer_rival, nearest, side_margin};
-use super::side_samples::SideSample;
+use super::side_samples::{CROSSED, SideSample};
 use super::sides::{ONE_DEG, Rival, SideStep};
 use crate::finder::choice::DECISIVE_RATIO;
+use crate::math::{Vector3, add, scale, subtract};
 use crate::pose::geodesic_deg;
 
 /// By how much another pose of each frame is less likely; `None` where there is none. `samples` were seen from both sides of the mirror,
@@ -98,25 +100,41 @@ fn leaves_more(sample: &SideSample, cells: &[Cell], usual_px: f64) -> bool {
     })
 }
 
-/// Whether the pose of a frame has gone back to the side that was not chosen; of one that was not seen from both sides, by the samples before
-/// and behind it.
+/// Whether the pose of a frame has gone back to the side that was not chosen: by where that is seen from, in the frame itself or between the samples
+/// before and behind it.
 fn is_rejected(samples: &[SideSample], steps: &[SideStep], frame: usize, cells: &[Cell]) -> bool {
     let cell = cells.get(frame).filter(|cell| !cell.fixed);
     let Some(now) = cell.and_then(Cell::found) else {
         return false;
     };
-    let of = |at: usize| Some((samples.get(at)?, steps.get(at)?.side));
+    let of = |at: usize| -> Option<(usize, [Vector3; 2])> {
+        let sample = samples.get(at)?;
+        Some((
+            sample.frame,
+            sample.directions_of_sides(steps.get(at)?.side)?,
+        ))
+    };
     let behind = samples.partition_point(|sample| sample.frame < frame);
-    if let Some((sample, side)) = of(behind).filter(|(sample, _)| sample.frame == frame) {
-        return sample.chosen_but_left(side, now).is_some();
-    }
-    let before = behind.checked_sub(1);
-    let mut beside = [before, Some(behind)]
-        .into_iter()
-        .filter_map(|at| of(at?))
-        .filter_map(|(sample, side)| sample.leads_to_rejected(side, now))
-        .peekable();
-    beside.peek().is_some() && beside.all(|is_rejected| is_rejected)
+    let is_own = samples
+        .get(behind)
+        .is_some_and(|sample| sample.frame == frame);
+    let before = behind.checked_sub(1).filter(|_| !is_own);
+    let sides = match (before.and_then(of), of(behind)) {
+        (Some((first, before)), Some((last, behind))) => {
+            let part = (frame - first) as f64 / (last - first) as f64;
+            let between = |k: usize| {
+                let (from, to) = (&before[k], &behind[k]);
+                add(from, &scale(&subtract(to, from), part))
+            };
+            [between(0), between(1)]
+        }
+        (one, other) => match one.or(other) {
+            Some((_, sides)) => sides,
+            None => return false,
+        },
+    };
+    let [chosen, rejected] = sides.map(|side| between_deg(&side, &now.pose.rotation[2]));
+    rejected < CROSSED * chosen
 }
 
 #[cfg(test)]
@@ -208,6 +226,25 @@ mod tests {
         assert_eq!(margin(&cells, 1.5), Some(5.0), "both sides are one");
         cells[4].fixed = true;
         assert_eq!(margin(&cells, 6.0), Some(5.0));
+    }
+
+    /// Both sides turn by as much as they are apart, twice, from one sample to the next.
+    #[test]
+    fn a_pose_between_two_that_were_seen_is_compared_with_where_their_sides_lead() {
+        let sample = |frame: usize, deg: f64| SideSample {
+            frame,
+            own: turned(deg, CHOSEN),
+            rival: Rival::Mirrored,
+            other: Some(turned(deg + 3.0, CHOSEN)),
+            fixed: false,
+        };
+        let samples = [sample(0, 0.0), sample(6, 6.0)];
+        let is_open = |deg: f64| {
+            let cells = vec![Cell::from(&Anchor::found(0, turned(deg, CHOSEN))); 7];
+            is_rejected(&samples, &[SideStep::default(); 2], 3, &cells)
+        };
+        assert!(is_open(6.0) && is_open(5.5));
+        assert!(!is_open(3.0) && !is_open(4.0));
     }
 
     #[test]

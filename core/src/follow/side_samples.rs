@@ -7,10 +7,14 @@ use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
+use super::motion::off_out_of_plane_deg;
+#[cfg(feature = "alloc")]
+use super::motion::out_of_plane_deg;
 #[cfg(feature = "alloc")]
 use super::sides::SAME_DEG;
 use super::sides::{ONE_DEG, Rival, Side, SideEvidence, SideFigures, SideStep};
-use crate::math::{Vector3, add, atan2, cross, degrees, dot, norm};
+#[cfg(feature = "alloc")]
+use crate::math::Vector3;
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -18,7 +22,7 @@ const EVERY: usize = 8;
 const LEAST: usize = 6;
 /// Poses of two frames belong together crosswise where they are nearer by this part than as they are.
 #[cfg(feature = "alloc")]
-const CROSSED: f64 = 0.5;
+pub(super) const CROSSED: f64 = 0.5;
 /// Where there is no other side, it fits so many times worse.
 const NO_OTHER: f64 = 10.0;
 
@@ -123,12 +127,12 @@ impl SideSample {
         (deg(now, &rejected) < CROSSED * deg(now, &chosen)).then_some(chosen)
     }
 
-    /// Whether the pose of a frame near by is rather on the side that was rejected, by where it is seen from; `None` where both sides are one.
+    /// The directions from which the chosen and the rejected side are seen; `None` where both sides are one.
     #[cfg(feature = "alloc")]
-    pub(super) fn leads_to_rejected(&self, side: Side, near: &FramePose) -> Option<bool> {
+    pub(super) fn directions_of_sides(&self, side: Side) -> Option<[Vector3; 2]> {
         let deg = |a: &FramePose, b: &FramePose| out_of_plane_deg(&a.pose, &b.pose);
-        let [chosen, rejected] = self.two_sides(side, SAME_DEG, deg)?;
-        Some(deg(near, &rejected) < CROSSED * deg(near, &chosen))
+        let both = self.two_sides(side, SAME_DEG, deg)?;
+        Some(both.map(|found| found.pose.rotation[2]))
     }
 
     /// What was chosen and what was rejected, where these are two by so many degrees.
@@ -160,18 +164,6 @@ impl SideSample {
             false => Some(self.own),
         }
     }
-}
-
-/// Angle between the directions of the camera's axis in the model's axes at two poses: turns in the image plane, and shifts, leave it as it is.
-#[cfg(feature = "alloc")]
-fn out_of_plane_deg(a: &Pose, b: &Pose) -> f64 {
-    let [a, b] = [a, b].map(|pose| pose.rotation[2]);
-    between_deg(&a, &b)
-}
-
-/// Angle between two directions of any length, degrees.
-fn between_deg(a: &Vector3, b: &Vector3) -> f64 {
-    degrees(atan2(norm(&cross(a, b)), dot(a, b)))
 }
 
 /// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
@@ -215,10 +207,10 @@ pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
 /// Whether a frame lies as far out of the image plane off the way between those beside it as one does where two sides of a mirror that are
 /// two begin to jump: limbs swing fast in that plane, and hardly out of it.
 fn rocks(cells: &[Cell], frame: usize) -> bool {
-    let seen_from = |frame: usize| Some(cells.get(frame)?.found()?.pose.rotation[2]);
+    let pose = |frame: usize| Some(cells.get(frame)?.found()?.pose);
     let off_deg = || {
-        let (before, after) = (seen_from(frame.checked_sub(1)?)?, seen_from(frame + 1)?);
-        Some(between_deg(&add(&before, &after), &seen_from(frame)?))
+        let (before, after) = (pose(frame.checked_sub(1)?)?, pose(frame + 1)?);
+        Some(off_out_of_plane_deg(&pose(frame)?, [&before, &after]))
     };
     off_deg().is_some_and(|off| off >= ONE_DEG / 2.0)
 }
@@ -265,7 +257,7 @@ mod tests {
     use crate::follow::fake::turned;
     use crate::follow::sides::choose_sides;
     #[cfg(feature = "alloc")]
-    use crate::math::{Matrix3, multiply, rotation_by, scale};
+    use crate::math::{Matrix3, multiply, norm, rotation_by, scale};
     #[cfg(feature = "alloc")]
     use proptest::array::{uniform2, uniform3};
     #[cfg(feature = "alloc")]
