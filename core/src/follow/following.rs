@@ -15,6 +15,7 @@ use super::conclude::{KnownBeside, conclude, trusted_depths};
 use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
 use super::frame_pose::{FramePose, mirrored_pose};
+use super::good_frames::{frames_to_ask, good_poses};
 use super::known_femur::KnownFemur;
 use super::search_order::RunsToSearch;
 use super::second_look::SecondLook;
@@ -34,6 +35,8 @@ enum Phase {
     Search,
     /// It is brought to its right pose.
     Settle,
+    /// It is looked for beside the other component, where it is lost after all.
+    Beside,
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
@@ -54,6 +57,9 @@ pub struct Following {
     /// The caller looks for the component in whole frames where nothing leads to it.
     searches: bool,
     runs: RunsToSearch,
+    /// Where the other component is good, for who looks beside that, and whether this one was found there.
+    other: Vec<Option<Pose>>,
+    found_beside: bool,
     settling: Settling,
     /// A step that waits for the caller's word.
     waiting: Option<SettlingStep>,
@@ -81,6 +87,8 @@ impl Following {
             phase: Phase::Way,
             searches: false,
             runs: RunsToSearch::default(),
+            other: Vec::new(),
+            found_beside: false,
             waiting: None,
             may_see: false,
             may_choose: false,
@@ -109,13 +117,24 @@ impl Following {
         matches!(self.tasks.front(), Some(Task::Search { .. }))
     }
 
-    /// What came of looking for the component in the whole frame that was asked for.
+    /// The pose of the other component in the frame that is to be searched, where it is to be looked for beside that: where its joint leaves it
+    /// ([`JointSearch`](super::JointSearch)).
+    #[must_use]
+    pub fn beside(&self) -> Option<&Pose> {
+        match self.tasks.front() {
+            Some(Task::Search { beside, .. }) => beside.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// What came of looking for the component in the frame that was asked for.
     pub fn searched(&mut self, pose: Option<Pose>) {
         if !self.is_search() {
             return;
         }
-        if let Some(Task::Search { frame, run }) = self.tasks.pop_front() {
+        if let Some(Task::Search { frame, run, .. }) = self.tasks.pop_front() {
             self.runs.searched(frame, &run, pose.is_some());
+            self.found_beside |= self.phase == Phase::Beside && pose.is_some();
             let found = pose.map(|pose| Task::Found { frame, pose, run });
             found
                 .into_iter()
@@ -215,6 +234,19 @@ impl Following {
         stands
     }
 
+    /// Once all is done, begins to look for the component where it is lost after all: beside the `other` one of its joint in frames in which that
+    /// is [good](Self::good), and settles it again where it is found there. A caller that [searches](Self::search_where_lost) not has nothing to
+    /// do. `femur` is that of a tibia, as far as it is known by now.
+    pub fn look_beside(&mut self, other: Vec<Option<Pose>>, femur: Option<KnownFemur>) {
+        if self.phase == Phase::Over && self.tasks.is_empty() {
+            self.femur = femur;
+            self.other = other;
+            self.runs = RunsToSearch::default();
+            self.found_beside = false;
+            self.phase = Phase::Beside;
+        }
+    }
+
     /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
     pub fn compare_sides(&mut self, frames: impl Iterator<Item = usize>) {
         if self.phase == Phase::Over {
@@ -264,6 +296,18 @@ impl Following {
         conclude(&self.cells, &margins, &beside, &self.middle)
     }
 
+    /// The pose of each frame in which the component is good, with the other component's [`Self::depths`], where there is one.
+    #[must_use]
+    pub fn good(&self, other_depths_mm: &[Option<f64>]) -> Vec<Option<FramePose>> {
+        good_poses(&self.cells, &self.conclude(other_depths_mm))
+    }
+
+    /// The frames that are asked whether the constants of the film stand, with their poses; see [`frames_to_ask`].
+    #[must_use]
+    pub fn to_ask(&self, other_depths_mm: &[Option<f64>]) -> Vec<(usize, Pose)> {
+        frames_to_ask(&self.good(other_depths_mm))
+    }
+
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
     fn go_on(&mut self) -> Option<()> {
         match self.phase {
@@ -286,6 +330,10 @@ impl Following {
                     None => self.phase = Phase::Over,
                 }
             }
+            Phase::Beside => match self.to_search_beside() {
+                Some(search) => self.tasks.push_back(search),
+                None => self.end_beside(),
+            },
             Phase::Over | Phase::Compare => return None,
         }
         Some(())
@@ -388,7 +436,28 @@ impl Following {
         let may_search = self.searches && !self.anchors.is_empty();
         let next = self.runs.next(&self.cells, &self.range);
         let (frame, run) = next.filter(|_| may_search)?;
-        Some(Task::Search { frame, run })
+        Some(Task::Search {
+            frame,
+            run,
+            beside: None,
+        })
+    }
+
+    /// The next frame in which it was not found, and the other component is good.
+    fn to_search_beside(&self) -> Option<Task> {
+        let next = self.runs.next_beside(&self.cells, &self.other, &self.range);
+        let (frame, run) = next.filter(|_| self.searches)?;
+        let beside = self.other[frame];
+        Some(Task::Search { frame, run, beside })
+    }
+
+    /// What was found is brought to its right pose with the rest of the film.
+    fn end_beside(&mut self) {
+        self.phase = Phase::Over;
+        if self.found_beside {
+            self.settling = Settling::new(self.middle, self.range.clone());
+            self.phase = Phase::Settle;
+        }
     }
 
     /// From a frame to both ends of a run of frames.

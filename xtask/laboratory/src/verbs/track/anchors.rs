@@ -127,13 +127,13 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
 pub(super) fn fill_in_joint(
     run: &Run<'_>,
     (part, cells): (&Part<'_>, &mut [Cell]),
-    (other, known): (&Part<'_>, &[Cell]),
+    (other, known): (&Part<'_>, &[Option<FramePose>]),
 ) -> Result<bool> {
     let mut runs = RunsToSearch::default();
     let all = 0..cells.len();
     let mut any = false;
     while let Some((frame, gap)) = runs.next_beside(cells, known, &all) {
-        let Some(&beside) = known[frame].found() else {
+        let Some(beside) = known[frame] else {
             break;
         };
         let beside = Beside {

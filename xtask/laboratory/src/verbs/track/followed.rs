@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::anchors::{again, fill, fill_in_joint};
 use super::follow::follow;
-use super::judged::{femur_of, is_tibia, other_of, trusted};
+use super::judged::{femur_of, good, is_tibia, other_of};
 use super::part::Part;
 use super::run::Run;
 use super::sides::{Margins, settle, up_to_a_choice};
@@ -51,7 +51,7 @@ fn find_lost(
     let (part, Some(other)) = (&parts[number], other_of(number, parts)) else {
         return Ok(());
     };
-    let known = trusted(run, (other, parts), films, &margins_of(settlings, films));
+    let known = good(run, (other, parts), films, &margins_of(settlings, films));
     if !fill_in_joint(run, (part, &mut films[number]), (&parts[other], &known))? {
         return Ok(());
     }
