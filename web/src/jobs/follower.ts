@@ -166,8 +166,8 @@ export class Follower {
     const soFar = await pass.answersSoFar();
     report(0, 0, { title: texts.follow.estimating, unit: '' });
     await Promise.race([this.#film.ready(), aborted(signal)]);
-    // What leads may have been corrected by the film, and what is followed so far is to be followed again.
-    const again = this.#parts(withoutSoFar(store.doc, [...before.values()]));
+    // What leads may have been corrected by the film.
+    const again = this.#parts(store.doc);
     const progress = new Progress(report, framesOf(again), texts.follow.again);
     const second = new FilmPass(this.#services, this.#first, again, before, progress, signal);
     if (!signal.aborted) await second.run();

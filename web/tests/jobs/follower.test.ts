@@ -425,6 +425,17 @@ describe('following', () => {
     expect(compared).toEqual([]);
   });
 
+  it('follows again what was followed so far when the page went', async () => {
+    const { store, follower, femur } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    let doc = store.doc;
+    femur.stopAt(5, () => void (doc = store.doc));
+    await follower.follow();
+    expect([1, 2, 3, 4].map((frame) => isSoFar(cellOf(doc, `f${frame}`, 'femur').result))).toEqual([true, true, true, true]);
+    expect(spanToFollow(doc, 'femur')).toMatchObject({ first: 0, last: 5, free: 5 });
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+  });
+
   it('keeps what the film came to where it is stopped while it is followed again, to be followed again by the next press', async () => {
     const { store, follower, femur, xs, news } = bench();
     clicked(store);
