@@ -108,7 +108,7 @@ export class Follower {
     if (found.length > 0) store.perform(takeFollowed(found));
     const posed = found.filter(({ pose }) => pose).length;
     const done = texts.follow.done(posed, found.filter(isDoubtful).length, found.length - posed, abort.signal.aborted);
-    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '));
+    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 
   /** In the card of each component, where it was looked for; the bottom line has it with what was found. */
