@@ -35,6 +35,8 @@ mod film_reading;
 #[cfg(feature = "alloc")]
 mod following;
 mod frame_pose;
+#[cfg(feature = "alloc")]
+mod good_frames;
 mod in_joint;
 mod joint_places;
 mod joint_search;
@@ -77,12 +79,14 @@ pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
 pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 #[cfg(feature = "alloc")]
-pub use film_reading::{FilmReading, profiles_at};
+pub use film_reading::FilmReading;
 #[cfg(feature = "alloc")]
 pub use following::Following;
 pub use frame_pose::{
     FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
 };
+#[cfg(feature = "alloc")]
+pub use good_frames::{frames_to_ask, good_poses};
 pub use in_joint::{BENDS, InJoint, Limb};
 pub use joint_places::{JOINT_PLACES, JointPlaces};
 pub use joint_search::JointSearch;

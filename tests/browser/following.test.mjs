@@ -30,6 +30,30 @@ if (!IN_FIREFOX) {
     });
   });
 
+  pageTest('a film that tells other constants than where it began is followed again, and a reload meanwhile loses nothing', async (page, t) => {
+    await tracing.openDemonstration(page);
+    await page.keyboard.press('Shift+G');
+    await panel.waitForJob(page, /^Following the film again/);
+    await until(() => panel.cells(page), (cells) => cells.every((cell) => /: (posed|followed)/.test(cell)), 'every cell to keep what was found first');
+    await screenshot(page, 'followed again');
+    await panel.waitUntilKept(page);
+    const before = await panel.cells(page);
+    await page.reload();
+    await panel.waitForWords(page, /Following the film/);
+    assert.deepEqual((await panel.cells(page)).map(withoutDoubt), before.map(withoutDoubt));
+    await page.keyboard.press('Shift+G');
+    t.diagnostic(await panel.waitForWords(page, /^\d+ poses? found/));
+    await atRest(page);
+    assert.equal((await panel.cells(page)).filter((cell) => /so far/.test(cell)).length, 0);
+    for (const component of /** @type {const} */ (['femur', 'tibia'])) {
+      await page.getByRole('radio', { name: component === 'femur' ? 'Femur' : 'Tibia' }).click();
+      await atRest(page);
+      const pose = await panel.waitForPose(page);
+      t.diagnostic(`${component}: ${panel.differences(pose, await truePose(component, 1))}`);
+      panel.assertNear(pose, await truePose(component, 1), tracing.BY_TWO_CLICKS);
+    }
+  });
+
   pageTest('a component that nobody clicked is looked for', async (page, t) => {
     await tracing.openDemonstration(page);
     await page.getByRole('radio', { name: 'Tibia' }).click();
@@ -129,6 +153,11 @@ async function clickedMeanwhile(page, t) {
   await calls.letGo();
   await waitForFollowed(page, 2 * (FRAMES - 1) - 1);
   assert((await panel.cells(page)).some((cell) => /^Frame 5, femur: posed/.test(cell)), 'what a person set stays');
+}
+
+/** @param {string} cell */
+function withoutDoubt(cell) {
+  return cell.replace(/, doubtful$/, '');
 }
 
 /** @param {Page} page @param {number} count */

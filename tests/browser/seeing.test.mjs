@@ -33,6 +33,9 @@ if (!IN_FIREFOX) {
       await page.emulateMedia({ colorScheme });
       await page.reload();
       await page.locator(`html[data-theme=${shown}]`).waitFor();
+      // The theme is there before the page listens to keys.
+      await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+      await drawn(page);
     };
     await visitIn('light', 'light');
     await visitIn('dark', 'dark');

@@ -13,6 +13,7 @@ use wasm_bindgen::prelude::*;
 #[derive(Default)]
 pub struct FilmStudy {
     pool: FilmPool,
+    known: Vec<FilmModel>,
 }
 
 #[wasm_bindgen]
@@ -50,14 +51,50 @@ impl FilmStudy {
         display: Option<String>,
         blur_px: Option<f64>,
     ) -> Result<Option<FilmFacts>, JsError> {
-        let display = display.as_deref().map(kind).transpose()?;
-        if blur_px.is_some_and(|blur_px| blur_px.is_nan() || blur_px <= 0.0) {
-            return Err(JsError::new("The blur of a film is a number above zero"));
-        }
-        let found = self.pool.estimate(GivenFilm { display, blur_px });
-        let knows = [0, 1].map(|component| self.pool.knows(component));
-        Ok(found.map(|estimate| FilmFacts { estimate, knows }))
+        let found = self.pool.estimate(given(display, blur_px)?);
+        Ok(found.map(|estimate| self.facts(estimate)))
     }
+
+    /// Says with what a component was followed, as `FilmFacts.model` gives it; one component after the other.
+    ///
+    /// # Errors
+    /// A sentence about the numbers.
+    pub fn know(&mut self, film: &[f64]) -> Result<(), JsError> {
+        self.known.extend(film_model(film)?);
+        Ok(())
+    }
+
+    /// The constants by the profiles of frames that were followed, where those that are known of the components do not stand. Nothing where they do.
+    ///
+    /// # Errors
+    /// A sentence about what is stated.
+    #[wasm_bindgen(js_name = learntAgain)]
+    pub fn learnt_again(
+        &self,
+        display: Option<String>,
+        blur_px: Option<f64>,
+    ) -> Result<Option<FilmFacts>, JsError> {
+        let found = self
+            .pool
+            .learnt_again(&self.known, given(display, blur_px)?);
+        Ok(found.map(|estimate| self.facts(estimate)))
+    }
+}
+
+impl FilmStudy {
+    fn facts(&self, estimate: FilmEstimate) -> FilmFacts {
+        let knows = [0, 1].map(|component| self.pool.knows(component));
+        FilmFacts { estimate, knows }
+    }
+}
+
+/// What a person states of a film.
+fn given(display: Option<String>, blur_px: Option<f64>) -> Result<GivenFilm, JsError> {
+    let display = display.as_deref().map(kind).transpose()?;
+    if blur_px.is_some_and(|blur_px| blur_px.is_nan() || blur_px <= 0.0) {
+        return Err(JsError::new("The blur of a film is a number above zero"));
+    }
+    Ok(GivenFilm { display, blur_px })
 }
 
 fn kind(word: &str) -> Result<DisplayKind, JsError> {

@@ -88,6 +88,19 @@ impl FilmFollower {
         self.following.is_search()
     }
 
+    /// The six numbers of the other component's pose in the frame that is to be searched, where the component is to be looked for beside that;
+    /// nothing where the whole frame is.
+    pub fn beside(&self) -> Option<Vec<f64>> {
+        let pose = *self.following.beside()?;
+        Some(to_numbers(&EulerPose::from(pose)).to_vec())
+    }
+
+    /// Whether metal is brighter than what surrounds it, as the first frame with a known pose told.
+    #[wasm_bindgen(getter, js_name = isBright)]
+    pub fn is_bright(&self) -> bool {
+        self.seen.is_bright()
+    }
+
     /// What came of searching the frame that was asked for: the six numbers of the pose that was found there, or nothing.
     ///
     /// # Errors
@@ -168,6 +181,48 @@ impl FilmFollower {
         Ok(false)
     }
 
+    /// Once all is done, begins to look for the component where it is lost, or lies on other edges, beside the other one in frames in which that is good
+    /// (`other`: six numbers a frame, not finite elsewhere; its `depths`). The femur is that of `chooseSides`, as far as it is known by now.
+    ///
+    /// # Errors
+    /// As of `chooseSides`.
+    #[wasm_bindgen(js_name = lookBeside)]
+    pub fn look_beside(
+        &mut self,
+        other: &[f64],
+        other_depths: &[f64],
+        femurs: &[f64],
+        femoral_axes: &[f64],
+        own_axes: &[f64],
+    ) -> Result<(), JsError> {
+        let femur = known_femur(femurs, femoral_axes, own_axes)?;
+        let poses = other.as_chunks().0.iter().map(known_pose);
+        let other = (poses.collect(), &*known_depths(other_depths));
+        self.following.look_beside(other, femur);
+        Ok(())
+    }
+
+    /// The six numbers of each frame in which the component is good, with the other component's `depths`, or none of them; not finite elsewhere.
+    pub fn good(&self, other_depths: &[f64]) -> Vec<f64> {
+        let good = self.following.good(&known_depths(other_depths));
+        let numbers = |found: &Option<FramePose>| match found {
+            Some(found) => to_numbers(&EulerPose::from(found.pose)),
+            None => [f64::NAN; NUMBERS],
+        };
+        good.iter().flat_map(numbers).collect()
+    }
+
+    /// The frames that are asked whether the constants of the film stand: seven numbers each, the frame's and the six of its pose.
+    #[wasm_bindgen(js_name = toAsk)]
+    pub fn to_ask(&self, other_depths: &[f64]) -> Vec<f64> {
+        let asked = self.following.to_ask(&known_depths(other_depths));
+        let numbers = |(frame, pose): (usize, Pose)| {
+            let pose = to_numbers(&EulerPose::from(pose));
+            [frame as f64].into_iter().chain(pose)
+        };
+        asked.into_iter().flat_map(numbers).collect()
+    }
+
     /// Ends the work before all is done: what was seen until then counts.
     pub fn stop(&mut self) {
         self.following.stop();
@@ -187,8 +242,7 @@ impl FilmFollower {
 
     /// The answer, with the other component's `depths`, or none of them.
     pub fn conclude(&self, other_depths: &[f64]) -> FollowedFilm {
-        let depths = other_depths.iter().map(|&mm| mm.is_finite().then_some(mm));
-        let depths: Vec<Option<f64>> = depths.collect();
+        let depths = known_depths(other_depths);
         let cells = self.following.cells();
         let frames = self.following.conclude(&depths);
         let middle = self.seen.middle();
@@ -215,6 +269,17 @@ impl FilmFollower {
     }
 }
 
+fn known_depths(depths: &[f64]) -> Vec<Option<f64>> {
+    let known = depths.iter().map(|&mm| mm.is_finite().then_some(mm));
+    known.collect()
+}
+
+fn known_pose(numbers: &[f64; NUMBERS]) -> Option<Pose> {
+    let known = numbers.iter().all(|number| number.is_finite());
+    let pose = known.then(|| from_numbers(numbers).ok()).flatten();
+    pose.map(Pose::from)
+}
+
 /// The femur as `chooseSides` takes it; nothing where there are no poses.
 fn known_femur(
     poses: &[f64],
@@ -225,11 +290,7 @@ fn known_femur(
         return Ok(None);
     }
     let field = axes_from(axes)?;
-    let pose = |numbers: &[f64; NUMBERS]| {
-        let known = numbers.iter().all(|number| number.is_finite());
-        let pose = known.then(|| from_numbers(numbers).ok()).flatten();
-        pose.map(|pose| Pose::from(pose).compose(&field))
-    };
+    let pose = |numbers: &[f64; NUMBERS]| Some(known_pose(numbers)?.compose(&field));
     let poses = poses.as_chunks().0.iter().map(pose).collect();
     let axes = axes_from(own_axes)?;
     Ok(Some(KnownFemur { poses, axes }))

@@ -56,6 +56,16 @@ impl FilmPool {
         !leads_elsewhere(&mut profiles, models, given)
     }
 
+    /// The constants by these profiles, where those that are known do not [stand](Self::stands_by): the film that was followed with them is to be
+    /// followed again. `None` where they stand, and where the profiles do not tell.
+    #[must_use]
+    pub fn learnt_again(&self, models: &[FilmModel], given: GivenFilm) -> Option<FilmEstimate> {
+        match self.stands_by(models, given) {
+            true => None,
+            false => self.estimate(given),
+        }
+    }
+
     /// The constants of the film that all of it was taken on; `None` where the profiles do not tell.
     #[must_use]
     pub fn estimate(&self, given: GivenFilm) -> Option<FilmEstimate> {

@@ -40,6 +40,8 @@ pub struct FilmReading {
 #[derive(Debug)]
 enum Task {
     At(usize, Pose),
+    /// Read at this very pose.
+    Just(usize, Pose),
     Beside(Box<Way>, usize),
 }
 
@@ -65,6 +67,13 @@ impl FilmReading {
         }
     }
 
+    /// Asks for the profiles at a pose that a frame has led to, as it is and without the frames beside it; such may be as many as are wanted.
+    pub fn ask(&mut self, frame: usize, pose: Pose) {
+        if frame < self.frames {
+            self.tasks.push_back(Task::Just(frame, pose));
+        }
+    }
+
     /// Takes off what comes last of what is left, for another thread: nothing of it depends on the rest, and its frames come after those of
     /// the rest. `None` where it is one way or one pose.
     pub fn split(&mut self) -> Option<Self> {
@@ -82,7 +91,7 @@ impl FilmReading {
     pub fn wanted(&mut self) -> Option<usize> {
         loop {
             let next = match self.tasks.front()? {
-                Task::At(frame, _) => Some(*frame),
+                Task::At(frame, _) | Task::Just(frame, _) => Some(*frame),
                 Task::Beside(way, to) => way.next(*to),
             };
             if next.is_some() {
@@ -126,6 +135,11 @@ impl FilmReading {
                 way.take(frame, &looked, &self.middle);
                 looked.found.ok().map(|found| found.pose)
             }
+            Task::Just(_, pose) => {
+                let pose = *pose;
+                self.tasks.pop_front();
+                Some(pose)
+            }
             Task::At(_, pose) => {
                 let start = (&*pose, From::Near);
                 let found = refined_on_frame(subject, image, start, memory);
@@ -143,8 +157,7 @@ impl FilmReading {
 }
 
 /// The profiles of a component (`names`: its number and that of the frame) at a pose that is known there; none where it cannot be drawn.
-#[must_use]
-pub fn profiles_at(
+fn profiles_at(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     pose: &Pose,

@@ -6,6 +6,7 @@ use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::{replace, take};
 use core::ops::Range;
 
 use task::{Span, Task, Walk};
@@ -15,9 +16,11 @@ use super::conclude::{KnownBeside, conclude, trusted_depths};
 use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
 use super::frame_pose::{FramePose, mirrored_pose};
+use super::good_frames::{frames_to_ask, good_poses};
 use super::known_femur::KnownFemur;
 use super::search_order::RunsToSearch;
 use super::second_look::SecondLook;
+use super::set_aside::{set_aside, take_better};
 use super::settling::{Settling, SettlingStep};
 use super::side_samples::SideSample;
 use super::sides::Rival;
@@ -34,9 +37,21 @@ enum Phase {
     Search,
     /// It is brought to its right pose.
     Settle,
+    /// It is looked for beside the other component, where it is lost after all.
+    Beside,
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
+}
+
+/// What is known where a component is looked for beside the other one of its joint.
+#[derive(Clone, Debug, Default)]
+struct Beside {
+    /// Where the other one is good.
+    other: Vec<Option<Pose>>,
+    /// Where this one is, and all of its film as it was before.
+    good: Vec<Option<FramePose>>,
+    before: Vec<Cell>,
 }
 
 /// Follows one component over some frames of a film. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at
@@ -54,6 +69,8 @@ pub struct Following {
     /// The caller looks for the component in whole frames where nothing leads to it.
     searches: bool,
     runs: RunsToSearch,
+    /// For who looks beside the other component.
+    beside: Beside,
     settling: Settling,
     /// A step that waits for the caller's word.
     waiting: Option<SettlingStep>,
@@ -81,6 +98,7 @@ impl Following {
             phase: Phase::Way,
             searches: false,
             runs: RunsToSearch::default(),
+            beside: Beside::default(),
             waiting: None,
             may_see: false,
             may_choose: false,
@@ -109,12 +127,22 @@ impl Following {
         matches!(self.tasks.front(), Some(Task::Search { .. }))
     }
 
-    /// What came of looking for the component in the whole frame that was asked for.
+    /// The pose of the other component in the frame that is to be searched, where it is to be looked for beside that: where its joint leaves it
+    /// ([`JointSearch`](super::JointSearch)).
+    #[must_use]
+    pub fn beside(&self) -> Option<&Pose> {
+        match self.tasks.front() {
+            Some(Task::Search { beside, .. }) => beside.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// What came of looking for the component in the frame that was asked for.
     pub fn searched(&mut self, pose: Option<Pose>) {
         if !self.is_search() {
             return;
         }
-        if let Some(Task::Search { frame, run }) = self.tasks.pop_front() {
+        if let Some(Task::Search { frame, run, .. }) = self.tasks.pop_front() {
             self.runs.searched(frame, &run, pose.is_some());
             let found = pose.map(|pose| Task::Found { frame, pose, run });
             found
@@ -215,6 +243,27 @@ impl Following {
         stands
     }
 
+    /// Once all is done, begins to look for the component where it is lost after all, or lies on other edges: beside the `other` one of its joint in
+    /// frames in which that is [good](Self::good), and settles it again where it is found there, or better. A caller that
+    /// [searches](Self::search_where_lost) not has nothing to do. `other_depths_mm` are the other one's [`Self::depths`]; `femur` is that of a tibia,
+    /// as far as it is known by now.
+    pub fn look_beside(
+        &mut self,
+        (other, other_depths_mm): (Vec<Option<Pose>>, &[Option<f64>]),
+        femur: Option<KnownFemur>,
+    ) {
+        if self.phase == Phase::Over && self.tasks.is_empty() {
+            self.femur = femur;
+            self.beside = Beside {
+                other,
+                good: self.good(other_depths_mm),
+                before: self.cells.clone(),
+            };
+            self.runs = RunsToSearch::default();
+            self.phase = Phase::Beside;
+        }
+    }
+
     /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
     pub fn compare_sides(&mut self, frames: impl Iterator<Item = usize>) {
         if self.phase == Phase::Over {
@@ -236,6 +285,7 @@ impl Following {
         for task in self.tasks.drain(..) {
             task.write(&mut self.cells);
         }
+        self.take_better();
         self.phase = Phase::Over;
     }
 
@@ -264,6 +314,18 @@ impl Following {
         conclude(&self.cells, &margins, &beside, &self.middle)
     }
 
+    /// The pose of each frame in which the component is good, with the other component's [`Self::depths`], where there is one.
+    #[must_use]
+    pub fn good(&self, other_depths_mm: &[Option<f64>]) -> Vec<Option<FramePose>> {
+        good_poses(&self.cells, &self.conclude(other_depths_mm))
+    }
+
+    /// The frames that are asked whether the constants of the film stand, with their poses; see [`frames_to_ask`].
+    #[must_use]
+    pub fn to_ask(&self, other_depths_mm: &[Option<f64>]) -> Vec<(usize, Pose)> {
+        frames_to_ask(&self.good(other_depths_mm))
+    }
+
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
     fn go_on(&mut self) -> Option<()> {
         match self.phase {
@@ -286,6 +348,10 @@ impl Following {
                     None => self.phase = Phase::Over,
                 }
             }
+            Phase::Beside => match self.next_beside() {
+                Some(search) => self.tasks.push_back(search),
+                None => self.end_beside(),
+            },
             Phase::Over | Phase::Compare => return None,
         }
         Some(())
@@ -388,7 +454,45 @@ impl Following {
         let may_search = self.searches && !self.anchors.is_empty();
         let next = self.runs.next(&self.cells, &self.range);
         let (frame, run) = next.filter(|_| may_search)?;
-        Some(Task::Search { frame, run })
+        Some(Task::Search {
+            frame,
+            run,
+            beside: None,
+        })
+    }
+
+    /// The next frame in which it was not found or lies on other edges, and the other component is good.
+    fn next_beside(&mut self) -> Option<Task> {
+        if !self.searches {
+            return None;
+        }
+        self.cells = set_aside(&self.cells, &self.beside.good);
+        let next = self
+            .runs
+            .next_beside(&self.cells, &self.beside.other, &self.range);
+        let (frame, run) = next?;
+        let beside = self.beside.other[frame];
+        Some(Task::Search { frame, run, beside })
+    }
+
+    /// What was found is brought to its right pose with the rest of the film.
+    fn end_beside(&mut self) {
+        let is_better = self.take_better();
+        self.phase = Phase::Over;
+        if is_better {
+            self.settling = Settling::new(self.middle, self.range.clone());
+            self.phase = Phase::Settle;
+        }
+    }
+
+    /// What was found beside the other component, in those frames in which it is better than what was there before.
+    fn take_better(&mut self) -> bool {
+        if self.phase != Phase::Beside {
+            return false;
+        }
+        let before = take(&mut self.beside.before);
+        let anew = replace(&mut self.cells, before);
+        take_better(&mut self.cells, &anew)
     }
 
     /// From a frame to both ends of a run of frames.

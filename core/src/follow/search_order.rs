@@ -61,13 +61,13 @@ impl RunsToSearch {
 
     /// The same of the frames alone in which the `other` component of the joint is known.
     #[must_use]
-    pub fn next_beside(
+    pub fn next_beside<T>(
         &self,
         cells: &[Cell],
-        other: &[Cell],
+        other: &[Option<T>],
         range: &Range<usize>,
     ) -> Option<(usize, Range<usize>)> {
-        let is_known = |frame: usize| other.get(frame).is_some_and(|cell| cell.found().is_some());
+        let is_known = |frame: usize| other.get(frame).is_some_and(Option::is_some);
         let is_missing = |frame: usize| cells[frame].found().is_none() && is_known(frame);
         self.next_of_those(&is_missing, &clipped(range, cells))
     }
@@ -153,7 +153,11 @@ mod tests {
     #[test]
     fn beside_the_other_component_it_is_searched_where_that_is_known() {
         let cells = film();
-        let mut other = film();
+        let known = |cells: &[Cell]| -> Vec<Option<()>> {
+            let found = cells.iter().map(|cell| cell.found().map(|_| ()));
+            found.collect()
+        };
+        let mut other = known(&cells);
         other.rotate_left(30);
         let runs = RunsToSearch::default();
         // The other one lacks 3 to 8, 15 to 19 and 30 to 39.
@@ -162,8 +166,8 @@ mod tests {
             Some((25, 20..30))
         );
         assert_eq!(runs.next_beside(&cells, &other, &(0..20)), Some((9, 9..10)));
-        assert_eq!(runs.next_beside(&cells, &cells, &(0..40)), None);
-        assert_eq!(runs.next_beside(&cells, &[], &(0..40)), None);
+        assert_eq!(runs.next_beside(&cells, &known(&cells), &(0..40)), None);
+        assert_eq!(runs.next_beside::<()>(&cells, &[], &(0..40)), None);
     }
 
     /// Frames 5 to 9, 20 to 29 and 33 to 38 are missing.

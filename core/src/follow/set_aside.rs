@@ -11,11 +11,11 @@ const POOR: f64 = 0.6;
 /// What is found in its place scores so many times more.
 const BETTER: f64 = 1.25;
 
-/// The cells without those poses; `good` has the cells of the frames in which the component is good, and no others.
+/// The cells without those poses; `good` has the poses of the frames in which the component is good ([`super::good_poses`]).
 #[must_use]
-pub fn set_aside(cells: &[Cell], good: &[Cell]) -> Vec<Cell> {
+pub fn set_aside(cells: &[Cell], good: &[Option<FramePose>]) -> Vec<Cell> {
     let least = POOR * usual_score(good);
-    let is_good = |frame: usize| good.get(frame).is_some_and(|cell| cell.found().is_some());
+    let is_good = |frame: usize| good.get(frame).is_some_and(Option::is_some);
     let each = cells.iter().enumerate();
     each.map(|(frame, cell)| {
         let poor = cell.found().is_some_and(|found| found.score() < least);
@@ -44,8 +44,8 @@ pub fn take_better(cells: &mut [Cell], found: &[Cell]) -> bool {
 }
 
 /// The middle one of all scores; 0 of none.
-fn usual_score(good: &[Cell]) -> f64 {
-    let scores = good.iter().filter_map(Cell::found).map(FramePose::score);
+fn usual_score(good: &[Option<FramePose>]) -> f64 {
+    let scores = good.iter().flatten().map(FramePose::score);
     let mut scores: Vec<f64> = scores.collect();
     scores.sort_unstable_by(f64::total_cmp);
     scores.get(scores.len() / 2).copied().unwrap_or_default()
@@ -69,16 +69,12 @@ mod tests {
             ..cell(30.0, 1.2)
         };
         let film = [good, cell(20.0, 1.2), cell(5.0, 0.5), fixed, good];
-        let known = [
-            good,
-            Cell::default(),
-            Cell::default(),
-            Cell::default(),
-            good,
-        ];
+        let found = good.found().copied();
+        let known = [found, None, None, None, found];
         let aside = set_aside(&film, &known);
         assert_eq!(aside, [good, Cell::default(), film[2], fixed, good]);
-        assert_eq!(set_aside(&film, &film), film);
+        let all = film.map(|cell| cell.found().copied());
+        assert_eq!(set_aside(&film, &all), film);
         // Of nothing good nothing is usual.
         assert_eq!(set_aside(&film, &[]), film);
     }

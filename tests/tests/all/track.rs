@@ -481,6 +481,53 @@ fn what_was_lost_is_looked_for_in_whole_frames_and_followed_from_there() {
 }
 
 #[test]
+fn what_is_lost_after_all_is_looked_for_beside_the_other_component_and_settled_again() {
+    let (thigh, [before, after], frames) = interrupted(2);
+    let middle = surface(thigh.clone()).as_model().bounds().centre;
+    let follow = |searches: bool| {
+        let mut following = Following::new(middle, frames.len(), 0..frames.len());
+        following.give(0, before, true);
+        if searches {
+            following.search_where_lost();
+        }
+        following.choose_sides(None);
+        let mut given = Given::new(&thigh, &frames);
+        given.go_on(&mut following);
+        following.choose_sides(None);
+        given.go_on(&mut following);
+        // The other one is good in some frames, in one of which nothing is.
+        let other: Vec<Option<Pose>> = (0..frames.len())
+            .map(|frame| (frame == 5 || frame >= 12).then_some(before))
+            .collect();
+        let seen = given.asked.len();
+        (given.there, given.searched) = (Some(after), Vec::new());
+        following.look_beside((other, &[]), None);
+        assert_eq!(following.wanted(), searches.then_some(16));
+        assert_eq!(following.beside(), searches.then_some(&before));
+        given.go_on(&mut following);
+        let found = following.cells().iter().map(|cell| cell.found().is_some());
+        (
+            found.collect::<Vec<bool>>(),
+            given.searched,
+            following,
+            given.asked.len() > seen,
+        )
+    };
+    let (found, searched, following, _) = follow(true);
+    assert_eq!(searched, [16, 5]);
+    let is_there = |frame: usize| !(2..12).contains(&frame);
+    assert_eq!(found, (0..frames.len()).map(is_there).collect::<Vec<_>>());
+    assert!(following.cells()[0].fixed);
+    // It is settled with what was found: that is good, and asked for what it tells of the film.
+    assert!(following.good(&[])[14].is_some());
+    let asked = following.to_ask(&[]);
+    assert!(asked.len() >= 4 && asked.iter().all(|&(frame, _)| is_there(frame)));
+    let (found, searched, _, is_seen) = follow(false);
+    assert!(searched.is_empty() && !is_seen);
+    assert_eq!(found.iter().filter(|found| **found).count(), 2);
+}
+
+#[test]
 fn who_stops_keeps_what_was_seen() {
     let (thigh, [before, _], frames) = interrupted(6);
     let middle = surface(thigh.clone()).as_model().bounds().centre;

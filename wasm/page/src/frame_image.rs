@@ -374,7 +374,12 @@ fn grey_range<P: Pixel>(pixels: &[P], covered: &Covered) -> Vec<f64> {
     let high = level_below(&counts, all - 1.0);
     let dark = level_below(&counts, all * CLIPPED);
     let bright = level_below(&counts, all * (1.0 - CLIPPED));
-    vec![low, high, (dark + bright) / 2.0, (bright - dark).max(1.0)]
+    // A blank frame has no range of its own: it is as bright as its grey value is among all of its type.
+    let (dark, bright) = match bright > dark {
+        true => (dark, bright),
+        false => (0.0, (1u32 << (8 * size_of::<P>())) as f64 - 1.0),
+    };
+    vec![low, high, (dark + bright) / 2.0, bright - dark]
 }
 
 /// The least grey value that more than `rank` pixels do not exceed.
@@ -406,6 +411,14 @@ mod tests {
             .ok()
             .unwrap();
         assert!(std::ptr::eq(film.pixels(), film.shared().pixels()));
+    }
+
+    #[test]
+    fn a_blank_frame_is_as_dark_as_it_is() {
+        let none = Covered::default();
+        assert_eq!(grey_range(&[0u8; 9], &none), vec![0.0, 0.0, 127.5, 255.0]);
+        let sixteen = grey_range(&[700u16; 9], &none);
+        assert_eq!(sixteen, vec![700.0, 700.0, 32_767.5, 65_535.0]);
     }
 
     #[test]

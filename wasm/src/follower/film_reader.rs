@@ -52,6 +52,17 @@ impl FilmReader {
         Ok(())
     }
 
+    /// Asks for the profiles at a pose (six numbers) of a frame as it is.
+    ///
+    /// # Errors
+    /// A sentence where they are not six finite numbers.
+    pub fn ask(&mut self, frame: usize, pose: &[f64]) -> Result<(), JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        self.reading.ask(frame, pose);
+        self.given.push((frame, pose));
+        Ok(())
+    }
+
     /// The frame that is to be looked at next; nothing where all is read.
     pub fn wanted(&mut self) -> Option<usize> {
         self.reading.wanted()

@@ -46,6 +46,11 @@ impl Seen {
         self.model.as_model().bounds().centre
     }
 
+    /// Whether the implant is bright, once a frame has told it.
+    pub(super) fn is_bright(&self) -> bool {
+        self.polarity == Some(Polarity::BrightImplant)
+    }
+
     /// Looks at a frame. The first one whose pose is `given` tells whether the implant is dark.
     ///
     /// # Errors

@@ -83,6 +83,8 @@ export interface Notice {
   readonly at: number;
   /** A button beside the text. */
   readonly offer?: Offer;
+  /** It says how good a pose is, or what following a film came to: what its joint tells of it afterwards takes its place, or stands behind it. */
+  readonly of?: 'pose' | 'film';
 }
 
 /** Several files of poses of one component: one of them is used. */
@@ -263,8 +265,8 @@ export class Store {
     this.show({ hand: { ...this.ui.hand, ...change } });
   }
 
-  say(kind: Notice['kind'], text: string, offer?: Offer): void {
-    const notice: Notice = { kind, text, at: Date.now(), ...(offer && { offer }) };
+  say(kind: Notice['kind'], text: string, offer?: Offer, of?: Notice['of']): void {
+    const notice: Notice = { kind, text, at: Date.now(), ...(offer && { offer }), ...(of && { of }) };
     this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
   }
 

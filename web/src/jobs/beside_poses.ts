@@ -1,3 +1,4 @@
+import type { Doc } from '../document/types';
 import { cameraOf } from '../results/keys';
 import type { Given } from '../results/spans';
 import type { ComponentName } from '../terms/component';
@@ -36,12 +37,34 @@ export async function readBeside(services: Services, subjects: readonly Subject[
   return new Map(abort.signal.aborted ? [] : read);
 }
 
-async function besideOf(services: Services, { component, worker, span }: Subject, signal: AbortSignal, looked: () => void): Promise<Beside> {
+async function besideOf(services: Services, subject: Subject, signal: AbortSignal, looked: () => void): Promise<Beside> {
+  const { component, worker, span } = subject;
   const { doc } = services.store;
-  const { model, ...subject } = subjectOf(services, component);
+  const { model, ...input } = subjectOf(services, component);
   const given = span.given.slice(0, POSES);
+  const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, given });
+  return { model, anchors: anchorsOf(doc, given), read: await profilesFrom(services, subject, first, signal, looked) };
+}
+
+/** Reads the film in frames in which a followed component is good, as its worker chooses them; null where these are too few. */
+export async function readAsked(services: Services, subject: Subject, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<Beside | null> {
+  const { component, worker, span } = subject;
+  const { doc } = services.store;
+  const { model, ...input } = subjectOf(services, component);
+  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, otherDepths });
+  if (first === null) return null;
+  const read = await profilesFrom(services, subject, first, signal, () => undefined);
+  return { model, anchors: anchorsOf(doc, span.given.slice(0, POSES)), read };
+}
+
+function anchorsOf(doc: Doc, given: readonly Given[]): Beside['anchors'] {
+  return given.map(({ frame, pose }) => ({ frameId: doc.frames[frame]!.id, pose }));
+}
+
+/** Profiles in all frames that the worker asks for. */
+async function profilesFrom(services: Services, { component, worker }: Subject, first: number | null, signal: AbortSignal, looked: () => void): Promise<readonly ReadProfiles[]> {
   const read: ReadProfiles[] = [];
-  for (let next = await worker.call('readFilm', { ...subject, component, frames: doc.frames.length, given }); next !== null && !signal.aborted; ) {
+  for (let next = first; next !== null && !signal.aborted; ) {
     const frame = next;
     const { frameId: _, ...input } = await frameAt(services, frame);
     const seen = await worker.call('lookFilm', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
@@ -50,7 +73,7 @@ async function besideOf(services: Services, { component, worker, span }: Subject
     next = seen.next;
     looked();
   }
-  return { model, anchors: given.map(({ frame, pose }) => ({ frameId: doc.frames[frame]!.id, pose })), read };
+  return read;
 }
 
 /** The component's model and the film's camera, as a worker takes them. */

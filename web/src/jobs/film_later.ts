@@ -31,6 +31,10 @@ export class FilmLater {
     (await this.#load())?.takeBeside(component, beside);
   }
 
+  async learnAgain(asked: ReadonlyMap<ComponentName, Beside>, signal: AbortSignal): Promise<boolean> {
+    return (await (await this.#load())?.learnAgain(asked, signal)) ?? false;
+  }
+
   #load(): Promise<FilmReader> | null {
     if (this.#services.store.doc.frames.length === 0) return this.#reader;
     return (this.#reader ??= this.#begin());

@@ -1,6 +1,6 @@
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
-import { CONSTANTS, withKnownFilm } from '../document/film';
+import { CONSTANTS, filmNumbers, withKnownFilm } from '../document/film';
 import { isSilhouette } from '../document/laid_by';
 import { itsOutline, setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
@@ -13,7 +13,7 @@ import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { Corrected, FilmFacts, FilmProtocol, ReadProfiles } from '../workers/protocol/film';
+import type { Corrected, FilmFacts, FilmProtocol, FollowedProfiles, ReadProfiles } from '../workers/protocol/film';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { type Beside, ReadBeside } from './film_beside';
 import { onFrameInput } from './from_here';
@@ -79,6 +79,49 @@ export class FilmReader {
   takeBeside(component: ComponentName, beside: Beside): void {
     this.#beside.set(component, beside);
     this.#consider();
+  }
+
+  /**
+   * Compares what is known of the film with frames in which followed components are good, and takes what these tell, and the profiles in place of those
+   * from beside poses that the components were followed from, where it does not stand; whether it did not.
+   */
+  async learnAgain(asked: ReadonlyMap<ComponentName, Beside>, signal: AbortSignal): Promise<boolean> {
+    await this.ready();
+    this.#busy = true;
+    clearTimeout(this.#timer);
+    this.#pauseIsOver();
+    try {
+      const { stated } = this.#services.store.doc.film;
+      const followed = this.#followed(asked);
+      const facts = followed && (await this.#films.call('learntAgain', { followed, stated }));
+      if (!facts || signal.aborted) return false;
+      for (const [component, beside] of asked) this.#beside.set(component, beside);
+      await this.#films.call('take', { read: this.#beside.handOver((...at) => this.#isReadItself(...at)) });
+      const known = this.#knownFrom(facts);
+      this.#taken.add(known);
+      this.#last = known;
+      // Poses that this corrects are read anew.
+      this.#turns = 0;
+      this.#services.store.amend((doc) => withKnownFilm(doc, known));
+      return true;
+    } finally {
+      this.#busy = false;
+      queueMicrotask(() => this.#consider());
+    }
+  }
+
+  /** Null where of one of them nothing is known to be compared. */
+  #followed(asked: ReadonlyMap<ComponentName, Beside>): readonly FollowedProfiles[] | null {
+    const { doc } = this.#services.store;
+    const followed = [...asked].flatMap(([component, { read }]) => {
+      const known = filmNumbers(doc, component);
+      return known ? [{ component, known, read }] : [];
+    });
+    return followed.length === asked.size ? followed : null;
+  }
+
+  #isReadItself(component: ComponentName, frame: number): boolean {
+    return [...this.#entries.values()].some(({ witness, isRead }) => isRead && witness.component === component && witness.frame === frame);
   }
 
   #consider(): void {

@@ -1,4 +1,4 @@
-import type { ComponentName } from '../terms/component';
+import { type ComponentName, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Report } from './services';
 
@@ -11,13 +11,15 @@ export type Looked = (component: ComponentName, frame: number) => void;
  */
 export class Progress {
   readonly #report: Report;
+  readonly #title: string;
   readonly #total: number;
   #followed = 0;
   #deciding: string = texts.follow.deciding;
 
-  constructor(report: Report, total: number) {
+  constructor(report: Report, total: number, title: string = texts.follow.job) {
     this.#report = report;
     this.#total = total;
+    this.#title = title;
   }
 
   readonly followed: Looked = () => {
@@ -30,8 +32,14 @@ export class Progress {
     this.#tell();
   };
 
+  /** It was looked for there, beside the other component. */
+  readonly beside: Looked = (component, frame) => {
+    this.#deciding = texts.follow.looking(texts.component[component], frame + 1, texts.component[otherThan(component)]);
+    this.#tell();
+  };
+
   #tell(): void {
-    if (this.#followed < this.#total) this.#report(this.#followed, this.#total);
+    if (this.#followed < this.#total) this.#report(this.#followed, this.#total, { title: this.#title });
     else this.#report(0, 0, { title: this.#deciding, unit: '' });
   }
 }

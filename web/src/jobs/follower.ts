@@ -1,34 +1,25 @@
-import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
-import { type Followed, takeFollowed, withoutSoFar, withSoFar } from '../document/followed';
+import { type Followed, takeFollowed, withoutSoFar } from '../document/followed';
 import { currentFrame } from '../document/store';
-import { cellOf, chosenCandidate, type FrameEntry, type Result } from '../document/types';
-import type { PoseNumbers } from '../geometry/pose_numbers';
-import { type Span, spanToFollow } from '../results/spans';
+import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
+import { spanToFollow } from '../results/spans';
 import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
-import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/follow';
-import { aborted, frameAt, readBeside, subjectOf, unlessAborted } from './beside_poses';
+import type { FollowProtocol } from '../workers/protocol/follow';
+import { aborted, readAsked, readBeside } from './beside_poses';
+import type { Beside } from './film_beside';
 import type { FilmLater } from './film_later';
+import { type Before, FilmPass, type Part } from './film_pass';
 import type { FirstPoses } from './first_poses';
-import { type Looked, Progress } from './follow_progress';
-import { asJob, sentenceOf, type Services } from './services';
+import { Progress } from './follow_progress';
+import { asJob, type Report, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
 
-type Film = Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside'>;
-
-/** A component with the frames that it is followed over. */
-interface Part {
-  readonly component: ComponentName;
-  readonly worker: Worker;
-  readonly span: Span;
-  /** What was there in frames that were looked at. */
-  readonly before: Map<string, readonly [Place, Result | null]>;
-}
+type Film = Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>;
 
 /**
  * Follows the components through the film from the frames that a person set, in a worker each, while the person goes on working.
@@ -86,7 +77,7 @@ export class Follower {
     const { doc } = this.#services.store;
     if (doc.film.stated.constants) return;
     const lacking: Part[] = [];
-    for (const part of this.#parts()) {
+    for (const part of this.#parts(doc)) {
       const { free, given, isDoubtful } = part.span;
       const isAnew = free + given.length === doc.frames.length || filmNumbers(doc, part.component) === null;
       if (isAnew && !isDoubtful && !(await this.#film.knowsBeside(part.component))) lacking.push(part);
@@ -106,19 +97,18 @@ export class Follower {
 
   async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
     const { store } = this.#services;
-    const parts = this.#parts();
+    const parts = this.#parts(store.doc);
     const notFound = missing.map((component) => texts.follow.notFound(texts.component[component]));
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
-    const total = parts.reduce((sum, { span }) => sum + span.free + span.given.length, 0);
-    const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
-    const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, new Progress(report, total)));
-    const before = parts.flatMap((part) => [...part.before.values()]);
-    store.amend((doc) => withoutSoFar(doc, before));
+    const before: Before = new Map();
+    const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel: () => abort.abort() };
+    const found = await asJob(store, job, (report) => this.#all(parts, before, report, abort.signal));
+    store.amend((doc) => withoutSoFar(doc, [...before.values()]));
     if (found.length > 0) store.perform(takeFollowed(found));
     const posed = found.filter(({ pose }) => pose).length;
     const done = texts.follow.done(posed, found.filter(isDoubtful).length, found.length - posed, abort.signal.aborted);
-    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '));
+    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 
   /** In the card of each component, where it was looked for; the bottom line has it with what was found. */
@@ -147,131 +137,63 @@ export class Follower {
     return doc.frames.some(isSet) ? texts.follow.allSet : texts.follow.noneSet;
   }
 
-  #parts(): readonly Part[] {
-    const { store, studio } = this.#services;
-    return COMPONENT_NAMES.flatMap((component) => {
-      const { model } = store.doc.components[component];
-      const span = model && studio.meshOf(model.sha256) ? spanToFollow(store.doc, component) : null;
-      return span ? [{ component, span, worker: this.#workers[component], before: new Map() }] : [];
+  #parts(doc: Doc): readonly Part[] {
+    return this.#present(doc).flatMap((component) => {
+      const span = spanToFollow(doc, component);
+      return span ? [{ component, span, worker: this.#workers[component] }] : [];
     });
   }
 
-  async #all(parts: readonly Part[], signal: AbortSignal, progress: Progress): Promise<readonly Followed[]> {
-    await this.#bothSides(parts, signal, progress);
-    if (signal.aborted) await Promise.all(parts.map(({ worker }) => worker.call('stop', null)));
-    const depths = new Map<ComponentName, Float64Array<ArrayBuffer>>();
-    for (const { component, worker } of parts) depths.set(component, await worker.call('depths', null));
-    const found = parts.map(async (part) => {
-      const other = depths.get(otherThan(part.component)) ?? new Float64Array();
-      return this.#answers(part, await this.#compared(part, other, signal, progress), signal.aborted);
-    });
-    return (await Promise.all(found)).flat();
+  /** The components whose models are there. */
+  #present(doc: Doc): readonly ComponentName[] {
+    const isPresent = (component: ComponentName) => {
+      const { model } = doc.components[component];
+      return model !== null && this.#services.studio.meshOf(model.sha256) !== null;
+    };
+    return COMPONENT_NAMES.filter(isPresent);
   }
 
   /**
-   * Both components at once: the tibia's sides are chosen with the femur as it was followed, which hardly ever goes over to its other side
-   * afterwards. Where it does, and that tells another side of the tibia, this is done again.
+   * Follows them, and once more where what is good then tells that the constants of the film are others than those that it was followed with:
+   * they hang on the poses that the film was read beside, which may be wrong.
    */
-  async #bothSides(parts: readonly Part[], signal: AbortSignal, progress: Progress): Promise<void> {
-    const [femur, tibia] = COMPONENT_NAMES.map((name) => parts.find(({ component }) => component === name));
-    const isFemurFollowed = femur ? this.#through(femur, signal, progress) : Promise.resolve();
-    const early = isFemurFollowed.then(() => this.#femurs(femur));
-    const femurDone = early.then(() => femur && this.#sides(femur, null, signal, progress));
-    const tibiaDone = tibia && this.#through(tibia, signal, progress).then(async () => this.#sides(tibia, this.#known(await early), signal, progress));
-    await Promise.all([femurDone, tibiaDone]);
-    if (!femur || !tibia || signal.aborted) return;
-    const femurs = this.#known(await this.#femurs(femur));
-    await this.#look(tibia, await tibia.worker.call('standsWith', { femurs }), signal, progress.another);
-  }
-
-  /** The answer, doubtful frames with what they look like from the other side of the mirror. */
-  async #compared(part: Part, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal, progress: Progress): Promise<readonly FollowedFrame[]> {
-    const film = await part.worker.call('conclude', { otherDepths });
-    const frames = film.flatMap(({ state }, frame) => (state === 'doubtful' ? [frame] : []));
-    if (frames.length === 0 || signal.aborted) return film;
-    await this.#look(part, await part.worker.call('compare', { frames }), signal, progress.another);
-    return part.worker.call('conclude', { otherDepths });
-  }
-
-  /** From the frames that are set over all others. */
-  async #through(part: Part, signal: AbortSignal, progress: Progress): Promise<void> {
-    const { component, worker, span } = part;
+  async #all(parts: readonly Part[], before: Before, report: Report, signal: AbortSignal): Promise<readonly Followed[]> {
     const { store } = this.#services;
-    const { doc } = store;
-    const { mesh, camera } = subjectOf(this.#services, component);
-    const { first, last, given } = span;
-    const searches = await this.#first.open(component, worker);
-    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
-    await this.#look(part, await worker.call('begin', begin), signal, progress.followed);
-    // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.
-    if (!signal.aborted) await this.#look(part, await worker.call('seeSides', null), signal, progress.another);
+    const pass = new FilmPass(this.#services, this.#first, parts, before, new Progress(report, framesOf(parts)), signal);
+    await pass.run();
+    const asked = signal.aborted || !this.#isWhole(parts) ? null : await this.#asked(parts, pass, report, signal);
+    if (!asked || !(await this.#film.learnAgain(asked, signal))) return pass.answers();
+    const soFar = await pass.answersSoFar();
+    report(0, 0, { title: texts.follow.estimating, unit: '' });
+    await Promise.race([this.#film.ready(), aborted(signal)]);
+    // What leads may have been corrected by the film.
+    const again = this.#parts(store.doc);
+    const progress = new Progress(report, framesOf(again), texts.follow.again);
+    const second = new FilmPass(this.#services, this.#first, again, before, progress, signal);
+    if (!signal.aborted) await second.run();
+    return signal.aborted ? soFar : second.answers();
   }
 
-  async #sides(part: Part, femurs: Femurs | null, signal: AbortSignal, progress: Progress): Promise<void> {
-    if (!signal.aborted) await this.#look(part, await part.worker.call('sides', { femurs }), signal, progress.another);
-  }
-
-  /** Shows the frames that the worker asks for; stops between two of them. What is found fills its cell at once. */
-  async #look(part: Part, first: number | null, signal: AbortSignal, looked: Looked): Promise<void> {
-    for (let next = first; next !== null && !signal.aborted; ) {
-      const at = next;
-      const { frameId, ...input } = await frameAt(this.#services, at);
-      const seen = await part.worker.call('look', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
-      if (!seen) return;
-      next = seen.next;
-      if (seen.pose) this.#fill(part, at, frameId, seen.pose);
-      looked(part.component, at);
-    }
-  }
-
-  #fill({ component, span, before }: Part, frame: number, frameId: string, pose: PoseNumbers): void {
-    const { store } = this.#services;
-    if (span.given.some((one) => one.frame === frame)) return;
-    const place = { frameId, component };
-    if (!before.has(frameId)) before.set(frameId, [place, cellOf(store.doc, frameId, component).result]);
-    store.amend((doc) => withSoFar(doc, place, pose, span.key(frame)));
-  }
-
-  /** As far as they are followed; what is not followed is as it is shown. */
-  async #femurs(femur: Part | undefined): Promise<readonly (PoseNumbers | null)[]> {
-    const shown = this.#shownPoses('femur');
-    const film = (await femur?.worker.call('conclude', { otherDepths: new Float64Array() })) ?? [];
-    if (!femur) return shown;
-    return film.map(({ pose }, frame) => pose ?? shown[frame] ?? null);
-  }
-
-  #shownPoses(component: ComponentName): readonly (PoseNumbers | null)[] {
+  /** Are all components followed over the whole film? A correction of some frames does not change how others are seen. */
+  #isWhole(parts: readonly Part[]): boolean {
     const { doc } = this.#services.store;
-    return doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
+    const isWhole = ({ span }: Part) => span.first === 0 && span.last === doc.frames.length - 1;
+    return !doc.film.stated.constants && parts.length === this.#present(doc).length && parts.every(isWhole);
   }
 
-  /** Null where the axes are not known: then edges alone decide. */
-  #known(poses: readonly (PoseNumbers | null)[]): Femurs | null {
-    const { femur, tibia } = this.#services.store.doc.components;
-    const areTold = femur.axes && tibia.axes && femur.axes.told !== 'nothing' && tibia.axes.told !== 'nothing';
-    if (!areTold || !femur.axes || !tibia.axes || poses.every((pose) => pose === null)) return null;
-    return { poses, axes: femur.axes.directions, own: tibia.axes.directions };
+  /** What frames say of the film in which all components are good; null where one of them is good in too few. */
+  async #asked(parts: readonly Part[], pass: FilmPass, report: Report, signal: AbortSignal): Promise<ReadonlyMap<ComponentName, Beside> | null> {
+    report(0, 0, { title: texts.follow.comparing, unit: '' });
+    const depths = await Promise.all(parts.map(({ component }) => pass.otherDepths(component)));
+    const each = parts.map(async (part, at) => [part.component, await readAsked(this.#services, part, depths[at]!, signal)] as const);
+    const asked = new Map<ComponentName, Beside>();
+    for (const [component, read] of await Promise.all(each)) if (read) asked.set(component, read);
+    return asked.size === parts.length && !signal.aborted ? asked : null;
   }
+}
 
-  #answers({ component, span }: Part, film: readonly FollowedFrame[], stopped: boolean): readonly Followed[] {
-    const { doc } = this.#services.store;
-    // The film has not told of what leads before it is followed to its end.
-    const isLeader = (frame: number) => !stopped && span.given.some((one) => one.frame === frame && !one.isSet);
-    const left = (frame: number) => (stopped ? null : (film[frame]?.pose ?? null));
-    const led = span.isDoubtful || (stopped && span.given.every(({ isDoubtful }) => isDoubtful));
-    const isGiven = (frame: number) => span.given.some((one) => one.frame === frame);
-    return film.flatMap((one, index) => {
-      const frame = doc.frames[index];
-      const isInside = index >= span.first && index <= span.last && (!isGiven(index) || isLeader(index));
-      // What was not reached before somebody stopped it is as it was.
-      if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
-      const place: Place = { frameId: frame.id, component };
-      const { pose, deviations, residual, badness, rival } = one;
-      const { because } = one;
-      const doubtful = one.state === 'doubtful';
-      return [{ place, pose, deviations, residual, badness, rival, led, isLeader: isLeader(index), because, doubtful, from: span.key(index, left) }];
-    });
-  }
+function framesOf(parts: readonly Part[]): number {
+  return parts.reduce((sum, { span }) => sum + span.free + span.given.length, 0);
 }
 
 function isDoubtful({ pose, doubtful, led }: Followed): boolean {

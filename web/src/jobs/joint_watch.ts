@@ -40,7 +40,7 @@ export class JointWatch {
   #flipped: Flipped = { of: '', known: 0, pairs: new Map() };
   #busy = false;
   #said: string | null = null;
-  /** What is still to be said: it does not take the place of what is being said. */
+  /** What is still to be said: it does not take the place of what is being said, but for that a pose is good. */
   #toSay: string | null = null;
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -116,10 +116,12 @@ export class JointWatch {
 
   #say(): void {
     const { store } = this.#services;
+    const { notice } = store.ui;
     const sentence = this.#toSay;
-    if (sentence === null || store.ui.notice !== null) return;
+    if (sentence === null || (notice !== null && notice.of === undefined)) return;
     this.#toSay = null;
-    store.say('info', asSentence(sentence));
+    const before = notice?.of === 'film' ? `${notice.text} ` : '';
+    store.say(notice?.kind ?? 'info', before + asSentence(sentence), undefined, notice?.of);
   }
 
   #partsOf({ components }: Doc): readonly [JointPart, JointPart] | null {

@@ -1,5 +1,5 @@
 import type { Place } from '../document/command';
-import { hasLed, isFollowed, isFound, isFree } from '../document/followed';
+import { hasLed, isFollowed, isFound, isFree, isSoFar } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -44,7 +44,9 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const stale = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
     if (set.has(frame) || !isFree(cell)) return [];
-    const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
+    // What was followed so far when the page went was not judged with the film.
+    const isJudged = isFollowed(cell.result) && !isSoFar(cell.result);
+    const isFrom = (these: readonly Given[]) => isJudged && cell.result?.origin.endsWith(keyAmong(these, frame));
     // Sessions from before `own` do not know what is said of it now.
     const isLed = !isDoubtful && verdictAlone(cell.result)?.because === texts.follow.fromDoubtful;
     const isDone = !isOpen && !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));

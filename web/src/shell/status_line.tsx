@@ -59,8 +59,8 @@ function useInfoExpires(state: State): void {
   const { store } = useApp().services;
   const { notice } = state.ui;
   useEffect(() => {
-    // What offers something waits for an answer.
-    if (notice?.kind !== 'info' || notice.offer) return undefined;
+    // What offers something waits for an answer, and who let a film be followed may look elsewhere meanwhile.
+    if (notice?.kind !== 'info' || notice.offer || notice.of === 'film') return undefined;
     const timer = setTimeout(() => store.ui.notice === notice && store.quiet(), INFO_LENGTH);
     return () => clearTimeout(timer);
   }, [notice, store]);

@@ -7,6 +7,8 @@ export const follow = {
   job: 'Following the film',
   reading: 'Reading the film beside the frames that are set',
   estimating: 'Estimating the constants of the film',
+  comparing: 'Comparing the constants of the film with what was followed',
+  again: 'Following the film again, by what all of it tells',
   deciding: 'Looking at other poses of the film',
   decidingIn: (component: string, frame: number) => `Looking at other poses of the ${component} in frame ${frame}`,
   looking: (component: string, frame: number, other: string | null) => `Looking for the ${component} ${other ? `beside the ${other} ` : ''}in frame ${frame}`,

@@ -132,7 +132,7 @@ export class OneClick {
     store.show({ selectedPoint: null });
     const followed = gaveWay(before, store.doc, place) ? ` ${texts.follow.gaveWay}` : '';
     // What was refused stands in the cell and the bottom line as long as it does.
-    if (answer.match?.refusal == null) store.say('info', (verdictSentence(place.component, answer) ?? answer.sentence) + followed);
+    if (answer.match?.refusal == null) store.say('info', (verdictSentence(place.component, answer) ?? answer.sentence) + followed, undefined, 'pose');
   }
 }
 

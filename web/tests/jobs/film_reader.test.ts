@@ -84,6 +84,53 @@ const BESIDE: Beside = {
 };
 const sizes = ({ read }: Estimate) => read.map(({ frame, profiles }) => [frame, profiles.length]);
 
+/** The names of the components and frames whose profiles the worker was given, call by call. */
+const handed = (asked: readonly Estimate[]) => asked.map(({ read }) => read?.map(({ component, frame, profiles }) => `${component} ${frame}: ${profiles.length}`));
+
+describe('what a followed film tells of its constants', () => {
+  /** A femur that was clicked in frame a, what was read beside it, and the constants by that. */
+  async function followed(again: number | null) {
+    const { store, reader, asked, ...rest_ } = bench([0.026, again]);
+    store.perform(clicked(store.doc));
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    asked.length = 0;
+    const known = store.doc.film.known;
+    const read = [0, 1].map((frame) => ({ component: 'femur' as const, frame, profiles: new Float32Array(192) }));
+    const learn = async (signal = new AbortController().signal) => {
+      const isNew = reader.learnAgain(new Map([['femur', { ...BESIDE, read }]]), signal);
+      await rest();
+      return isNew;
+    };
+    return { store, reader, asked, known, learn, ...rest_ };
+  }
+
+  it('is taken, with the profiles in place of those from beside the pose that led, and poses are corrected by it', async () => {
+    const { store, asked, known, learn, corrected } = await followed(0.05);
+    const before = corrected.length;
+    expect(await learn()).toBe(true);
+    expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.05);
+    expect(store.doc.film.known).not.toBe(known);
+    // Compared by what was read in good frames alone; then the worker forgets what was read beside, but for the clicked frame, which is read itself.
+    expect(asked[0]).toMatchObject({ followed: [{ component: 'femur', known: known?.models.femur?.numbers, read: [{ frame: 0 }, { frame: 1 }] }] });
+    expect(handed(asked.slice(1, 2))).toEqual([['femur 1: 0', 'femur 1: 192']]);
+    expect(corrected.length).toBeGreaterThan(before);
+    expect(cellOf(store.doc, 'a', 'femur').result).toMatchObject({ onFrame: { film: [0.05, 0.8, 0.7] } });
+  });
+
+  it('changes nothing where the constants stand, or where somebody called it off', async () => {
+    const stands = await followed(null);
+    expect(await stands.learn()).toBe(false);
+    expect(stands.store.doc.film.known).toBe(stands.known);
+    expect(stands.asked).toHaveLength(1);
+    const { store, known, learn } = await followed(0.05);
+    const off = new AbortController();
+    off.abort();
+    expect(await learn(off.signal)).toBe(false);
+    expect(store.doc.film.known).toBe(known);
+  });
+});
+
 describe('what is read beside a pose', () => {
   const placed = (x: number) => setPoseByHand({ frameId: 'a', component: 'femur' }, { ...BESIDE.anchors[0]!.pose, x });
 

@@ -9,11 +9,13 @@ describe('how far following is', () => {
     progress.another('femur', 5);
     progress.followed('tibia', 0);
     progress.another('tibia', 6);
+    progress.beside('tibia', 7);
     expect(said).toEqual([
-      '1 of 2',
-      '1 of 2',
+      'Following the film 1 of 2',
+      'Following the film 1 of 2',
       'Looking at other poses of the femur in frame 6 0 of 0 without a unit',
       'Looking at other poses of the tibia in frame 7 0 of 0 without a unit',
+      'Looking for the tibia beside the femur in frame 8 0 of 0 without a unit',
     ]);
   });
 });

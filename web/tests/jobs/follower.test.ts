@@ -27,6 +27,9 @@ function worker(missing: readonly number[]) {
   const asked: string[] = [];
   let again: number | null = null;
   const begun: FollowInput[] = [];
+  const beside: (readonly (PoseNumbers | null)[])[] = [];
+  let lost: number | null = null;
+  let isGoodInFew = false;
   let input: FollowInput | null = null;
   let seen: number[] = [];
   let compared: readonly number[] = [];
@@ -51,9 +54,9 @@ function worker(missing: readonly number[]) {
       return rest();
     },
     look: () => {
-      const frame = rest() ?? again!;
+      const frame = rest() ?? again ?? lost!;
       seen.push(frame);
-      return { pose: poseOf(10 + frame), next: rest() };
+      return { pose: poseOf(10 + frame), isBeside: false, next: rest() };
     },
     readFilm: ({ given }: FilmReading) => {
       toRead = [given[0]!.frame, given[0]!.frame + 1].filter((frame) => frame < FRAMES);
@@ -66,6 +69,15 @@ function worker(missing: readonly number[]) {
     seeSides: () => null,
     sides: () => null,
     standsWith: () => again,
+    good: () => Array.from({ length: FRAMES }, (_, frame) => answer(frame)).map(({ state, pose }) => (state === 'followed' || state === 'fixed' ? pose : null)),
+    lookBeside: (given: { readonly other: readonly (PoseNumbers | null)[] }) => {
+      beside.push(given.other);
+      return lost;
+    },
+    askFilm: () => {
+      toRead = isGoodInFew ? [] : [0, 2];
+      return toRead[0] ?? null;
+    },
     stop: () => null,
     compare: ({ frames }: { readonly frames: readonly number[] }) => {
       compared = frames;
@@ -83,7 +95,7 @@ function worker(missing: readonly number[]) {
     return answer;
   };
   const dispose = () => void asked.push('let go');
-  return { begun, asked, call, dispose, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+  return { begun, beside, asked, call, isGoodInFew: () => void (isGoodInFew = true), lose: (frame: number) => void (lost = frame), dispose, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
 }
 
 function bench(missing: readonly number[] = []) {
@@ -114,10 +126,17 @@ function bench(missing: readonly number[] = []) {
     ready: async () => undefined,
     knowsBeside: async (component: ComponentName) => taken.some(([of]) => of === component),
     takeBeside: async (...beside: [ComponentName, Beside]) => void taken.push(beside),
+    learnAgain: async (read: ReadonlyMap<ComponentName, Beside>) => {
+      compared.push(read);
+      return news.shift()?.() ?? false;
+    },
   };
+  const compared: ReadonlyMap<ComponentName, Beside>[] = [];
+  /** What comes of comparing the film's constants, the first time, the second, ...: others or not. */
+  const news: (() => boolean)[] = [];
   const follower = new Follower({ store, studio } as never, workers as never, first, film);
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, taken };
+  return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, taken, compared, news };
 }
 
 /** A doubtful pose that a click led to. */
@@ -338,8 +357,100 @@ describe('following', () => {
     await follower.follow();
     const from = (asked: readonly string[]) => asked.slice(asked.indexOf('seeSides') + 1);
     // The femur as it was followed, and as it is in the end.
-    expect(from(femur.asked)).toEqual(['conclude', 'sides', 'conclude', 'depths', 'conclude', 'compare', 'conclude', 'let go']);
-    expect(from(tibia.asked)).toEqual(['sides', 'standsWith', 'look', 'depths', 'conclude', 'compare', 'conclude', 'let go']);
+    const lost = ['depths', 'good', 'lookBeside'];
+    const answered = ['depths', 'askFilm', 'lookFilm', 'lookFilm', 'depths', 'conclude', 'compare', 'conclude', 'let go'];
+    expect(from(femur.asked).toSorted()).toEqual(['conclude', 'sides', 'conclude', 'conclude', ...lost, ...answered].toSorted());
+    expect(from(tibia.asked).toSorted()).toEqual(['sides', 'standsWith', 'look', ...lost, ...answered].toSorted());
+    expect(from(tibia.asked).indexOf('lookBeside')).toBeGreaterThan(from(tibia.asked).indexOf('standsWith'));
+  });
+
+  it('looks for what is lost beside the other component where that is good', async () => {
+    const { store, follower, femur, tibia } = bench([5]);
+    store.perform(setModel('tibia', { name: 't', sha256: 't' }));
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    store.perform(setPoseByHand({ frameId: 'f1', component: 'tibia' }, poseOf(7)));
+    tibia.lose(3);
+    await follower.follow();
+    const xs = (poses: readonly (PoseNumbers | null)[] | undefined) => poses?.map((pose) => pose?.x ?? null);
+    // Frame 4 is doubtful.
+    expect(femur.beside.map(xs)).toEqual([[10, 7, 12, 13, null, 15]]);
+    expect(tibia.beside.map(xs)).toEqual([[0, 11, 12, 13, null, null]]);
+    expect(tibia.asked.slice(tibia.asked.indexOf('lookBeside'))[1]).toBe('look');
+  });
+
+  it('looks beside a component that is not followed where it is shown as good', async () => {
+    const { store, follower, femur } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    const good = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(poseOf(9))], chosen: 0, reason: null, decided: true, verdict: { word: 'good', because: 'it fits' } } as const;
+    store.perform({ label: 'trace', apply: (doc) => withCell(doc, { frameId: 'f3', component: 'tibia' }, { outline: null, result: good, resultOf: null }) });
+    await follower.follow();
+    expect(femur.beside).toEqual([[null, null, null, poseOf(9), null, null]]);
+  });
+
+  it('follows the film again, once, where what it came to tells other constants, as one step back', async () => {
+    const { store, follower, femur, xs, compared, news } = bench();
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    let shown: unknown[] = [];
+    news.push(() => {
+      shown = xs();
+      return true;
+    }, () => true);
+    await follower.follow();
+    expect(compared).toHaveLength(1);
+    expect([...compared[0]!]).toMatchObject([['femur', { model: 'm', anchors: [{ frameId: 'f1' }], read: [{ frame: 0 }, { frame: 2 }] }]]);
+    expect(femur.begun.map(({ first, last, given }) => [first, last, given.length])).toEqual([[0, 5, 1], [0, 5, 1]]);
+    // What is followed so far stays in sight meanwhile.
+    expect(shown).toEqual([10, 0, 12, 13, 14, 15]);
+    expect(xs()).toEqual([10, 0, 12, 13, 14, 15]);
+    expect(store.doc.frames.some(({ id }) => isSoFar(cellOf(store.doc, id, 'femur').result))).toBe(false);
+    store.undo();
+    expect(xs()).toEqual([null, 0, null, null, null, null]);
+  });
+
+  it('does not compare constants that are stated, or where a part of the film is followed or a component is good in too few frames', async () => {
+    const { store, follower, femur, compared } = bench();
+    const unstated = store.doc.film.stated;
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    store.perform(stateFilm({ ...unstated, constants: { curvature: 0.02, blur: 1, attenuation: { femur: 1, tibia: 1 } } }));
+    await follower.follow();
+    store.perform(stateFilm(unstated));
+    store.perform(setPoseByHand(place(3), poseOf(3)));
+    await follower.follow();
+    expect(femur.begun.at(-1)).toMatchObject({ first: 1, last: 5 });
+    expect(compared).toEqual([]);
+    store.perform(setPoseByHand(place(1), poseOf(1)));
+    femur.isGoodInFew();
+    await follower.follow();
+    expect(femur.begun.at(-1)).toMatchObject({ first: 0 });
+    expect(compared).toEqual([]);
+  });
+
+  it('follows again what was followed so far when the page went', async () => {
+    const { store, follower, femur } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    let doc = store.doc;
+    femur.stopAt(5, () => void (doc = store.doc));
+    await follower.follow();
+    expect([1, 2, 3, 4].map((frame) => isSoFar(cellOf(doc, `f${frame}`, 'femur').result))).toEqual([true, true, true, true]);
+    expect(spanToFollow(doc, 'femur')).toMatchObject({ first: 0, last: 5, free: 5 });
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+  });
+
+  it('keeps what the film came to where it is stopped while it is followed again, to be followed again by the next press', async () => {
+    const { store, follower, femur, xs, news } = bench();
+    clicked(store);
+    news.push(() => {
+      femur.stopAt(3, () => void follower.follow());
+      return true;
+    });
+    await follower.follow();
+    expect(store.ui.notice?.text).toMatch(/^Stopped: 5 poses found/);
+    expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
+    expect(spanToFollow(store.doc, 'femur')).toMatchObject({ first: 0, last: 5, free: 5 });
+    femur.stopAt(-1, () => undefined);
+    await follower.follow();
+    expect(xs()).toEqual([10, 11, MOVED, 13, 14, 15]);
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
   });
 
   it('lets its workers go at the end, and none before', async () => {

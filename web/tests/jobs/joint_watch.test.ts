@@ -56,6 +56,20 @@ describe('joint watch', () => {
     expect(cellOf(store.doc, 'a', 'femur').result).not.toHaveProperty('aside');
   });
 
+  it('does not leave it said that a pose is good, and says it behind what following a film came to', async () => {
+    const said = async (of: 'pose' | 'film' | undefined, expected: string) => {
+      const { store, put } = bench();
+      store.say('info', 'Femur: Good.', undefined, of);
+      put('a', 'femur', posed(-1000));
+      put('a', 'tibia', posed(-1030));
+      await vi.waitFor(() => expect(cellOf(store.doc, 'a', 'femur').result).toHaveProperty('aside'));
+      expect(store.ui.notice?.text).toBe(expected);
+    };
+    await said('pose', 'Are the pictures mirrored?');
+    await said('film', 'Femur: Good. Are the pictures mirrored?');
+    await said(undefined, 'Femur: Good.');
+  });
+
   it('leaves what is worked out from poses to what they are by themselves', async () => {
     const { store, put, word } = bench();
     put('a', 'femur', posed(-1000));

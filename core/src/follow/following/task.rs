@@ -29,10 +29,12 @@ pub(super) enum Task {
     },
     Walk(Box<Walk>),
     Span(Box<Span>),
-    /// In a run of frames the component is not: the caller looks for it in the whole of one of them.
+    /// In a run of frames the component is not: the caller looks for it in the whole of one of them, or where its joint leaves it beside the
+    /// other one.
     Search {
         frame: usize,
         run: Range<usize>,
+        beside: Option<Pose>,
     },
     /// A pose that the caller found there is looked at in its frame.
     Found {

@@ -2,7 +2,7 @@ import { FilmFollower, FilmReader, type FollowedFilm } from '../../pkg/core/fluo
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { COMPONENT_NAMES } from '../../terms/component';
-import type { Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
+import type { Femurs, FilmReading, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
 import { firstPoses, Searcher } from './first_poses';
@@ -21,14 +21,13 @@ const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 
 serve<FollowProtocol>({
   ...firstPoses(ready, searcher),
-  readFilm: async ({ mesh, camera: { text, width, height }, component, given, ...film }) => {
+  readFilm: async ({ given, ...film }) => {
     await ready;
-    reader?.free();
-    reader = null;
-    const begun = new FilmReader(mesh.vertices, mesh.triangles, text, width, height, film.frames, COMPONENT_NAMES.indexOf(component));
-    for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)));
-    reader = begun;
-    return begun.wanted() ?? null;
+    return read(film, (begun) => given.forEach(({ frame, pose }) => begun.give(frame, Float64Array.from(poseArray(pose)))));
+  },
+  askFilm: ({ otherDepths, ...film }) => {
+    const asked = rowsOf(working().toAsk(otherDepths), 7);
+    return read(film, (begun) => asked.forEach(([frame, ...pose]) => begun.ask(frame!, Float64Array.from(pose))));
   },
   lookFilm: (pixels) =>
     withImage(pixels, async (image) => {
@@ -54,12 +53,14 @@ serve<FollowProtocol>({
   look: (pixels, context) =>
     withImage(pixels, async (image) => {
       if (working().isSearch) {
-        await searcher.find(image, { beside: null, places: 'all' }, context);
+        const other = posed(working().beside());
+        searcher.own().showBright(working().isBright);
+        await searcher.find(image, { beside: other && { pose: other, inJoint: true }, places: 'all' }, context);
         working().searched(searcher.pose);
-        return { pose: null, next: working().wanted() ?? null };
+        return { pose: null, isBeside: other !== null, next: working().wanted() ?? null };
       }
-      const pose = working().take(image);
-      return { pose: pose ? poseFrom(pose) : null, next: working().wanted() ?? null };
+      const pose = posed(working().take(image));
+      return { pose, isBeside: false, next: working().wanted() ?? null };
     }),
   seeSides: () => {
     working().seeSides();
@@ -70,6 +71,11 @@ serve<FollowProtocol>({
     return working().wanted() ?? null;
   },
   standsWith: ({ femurs }) => (working().standsWith(...numbers(femurs)) ? null : (working().wanted() ?? null)),
+  lookBeside: ({ other, otherDepths, femurs }) => {
+    working().lookBeside(allNumbers(other), otherDepths, ...numbers(femurs));
+    return working().wanted() ?? null;
+  },
+  good: ({ otherDepths }) => rowsOf(working().good(otherDepths), 6).map((pose) => (pose.every(Number.isFinite) ? poseFrom(Float64Array.from(pose)) : null)),
   compare: ({ frames }) => {
     working().compareSides(Uint32Array.from(frames));
     return working().wanted() ?? null;
@@ -112,6 +118,24 @@ function posed(numbers: Float64Array | undefined): PoseNumbers | null {
 function numbers(femurs: Femurs | null): readonly [Float64Array, Float64Array, Float64Array] {
   if (!femurs) return [NONE, NONE, NONE];
   const { poses, axes, own } = femurs;
-  const all = poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE));
-  return [Float64Array.from(all), numbersOf(axes), numbersOf(own)];
+  return [allNumbers(poses), numbersOf(axes), numbersOf(own)];
+}
+
+function allNumbers(poses: readonly (PoseNumbers | null)[]): Float64Array {
+  return Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE)));
+}
+
+/** Numbers in rows of so many. */
+function rowsOf(numbers: Float64Array, count: number): readonly (readonly number[])[] {
+  return Array.from({ length: numbers.length / count }, (_, row) => [...numbers.subarray(count * row, count * (row + 1))]);
+}
+
+/** Begins to read profiles of the film; gives the first frame that is wanted. */
+function read({ mesh, camera: { text, width, height }, component, frames }: Omit<FilmReading, 'given'>, ask: (begun: FilmReader) => void): number | null {
+  reader?.free();
+  reader = null;
+  const begun = new FilmReader(mesh.vertices, mesh.triangles, text, width, height, frames, COMPONENT_NAMES.indexOf(component));
+  ask(begun);
+  reader = begun;
+  return begun.wanted() ?? null;
 }

@@ -68,4 +68,19 @@ export interface FilmProtocol {
     output: FilmFacts | null;
     progress: never;
   };
+  /** The constants by frames that were followed, where those that the film was followed with do not stand; null where they do. */
+  learntAgain: {
+    input: { readonly followed: readonly FollowedProfiles[]; readonly stated: StatedFilm };
+    output: FilmFacts | null;
+    progress: never;
+  };
+  /** Keeps profiles for the next estimate. */
+  take: { input: { readonly read: readonly ReadProfiles[] }; output: null; progress: never };
+}
+
+/** What was read of a component that was followed with what was `known` of the film. */
+export interface FollowedProfiles {
+  readonly component: ComponentName;
+  readonly known: readonly number[];
+  readonly read: readonly ReadProfiles[];
 }

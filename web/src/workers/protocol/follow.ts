@@ -26,6 +26,19 @@ export interface FollowProtocol extends FirstPosesProtocol {
    * tells another side; null where all stands.
    */
   standsWith: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
+  /**
+   * Once all is done, begins to look for the component where it is lost, or lies on other edges, beside the `other` one in the frames in which that is
+   * good; gives the first frame that is to be searched.
+   */
+  lookBeside: {
+    input: { readonly other: readonly (PoseNumbers | null)[]; readonly otherDepths: Float64Array<ArrayBuffer>; readonly femurs: Femurs | null };
+    output: number | null;
+    progress: never;
+  };
+  /** The poses of the frames in which the component is good; of others none. */
+  good: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly (PoseNumbers | null)[]; progress: never };
+  /** Begins to read profiles of the film in frames in which the component is good, for `lookFilm`; gives the first of them, or null where these are too few. */
+  askFilm: { input: FilmAsked; output: number | null; progress: never };
   /** Begins to look at frames from the other side of the mirror; gives the first one. */
   compare: { input: { readonly frames: readonly number[] }; output: number | null; progress: never };
   /** Ends the work before all is done. */
@@ -35,12 +48,19 @@ export interface FollowProtocol extends FirstPosesProtocol {
   conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
 }
 
-export interface FilmReading {
+interface FilmSubject {
   readonly mesh: ModelMesh;
   readonly camera: CameraInput;
   readonly frames: number;
   readonly component: ComponentName;
+}
+
+export interface FilmReading extends FilmSubject {
   readonly given: FollowInput['given'];
+}
+
+export interface FilmAsked extends FilmSubject {
+  readonly otherDepths: Float64Array<ArrayBuffer>;
 }
 
 export interface FilmSeen {
@@ -66,6 +86,8 @@ export interface FollowInput {
 export interface Seen {
   /** Where the component was found in the frame. */
   readonly pose: PoseNumbers | null;
+  /** It was looked for there beside the other component. */
+  readonly isBeside: boolean;
   /** The frame that is to be looked at next; null where this part of the work is done. */
   readonly next: number | null;
 }

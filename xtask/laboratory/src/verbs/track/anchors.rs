@@ -126,8 +126,8 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
 /// known: where the joint leaves it beside that.
 pub(super) fn fill_in_joint(
     run: &Run<'_>,
-    (part, good, cells): (&Part<'_>, &[Cell], &mut Vec<Cell>),
-    (other, known): (&Part<'_>, &[Cell]),
+    (part, good, cells): (&Part<'_>, &[Option<FramePose>], &mut Vec<Cell>),
+    (other, known): (&Part<'_>, &[Option<FramePose>]),
 ) -> Result<()> {
     let mut runs = RunsToSearch::default();
     let all = 0..cells.len();
@@ -136,7 +136,7 @@ pub(super) fn fill_in_joint(
         let Some((frame, gap)) = runs.next_beside(cells, known, &all) else {
             return Ok(());
         };
-        let Some(&beside) = known[frame].found() else {
+        let Some(beside) = known[frame] else {
             return Ok(());
         };
         let beside = Beside {

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmEstimate, FilmModel, FilmPool, FilmProfile};
-use fluoropose::follow::{Anchor, FilmReading, profiles_at};
+use fluoropose::follow::{Anchor, FilmReading};
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
 
@@ -11,10 +11,6 @@ use super::part::Part;
 use super::record::Films;
 use super::run::Run;
 use crate::finding::Stated;
-
-/// Of a component that is good in fewer frames nothing is learnt again, and of one that is in many not from more of them.
-const LEAST_GOOD: usize = 4;
-const MOST_GOOD: usize = 12;
 
 /// Takes the constants as they are stated, or estimates them from the frames around the anchors, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
@@ -41,14 +37,8 @@ pub(super) fn learn_film(
         let read: Vec<_> = each
             .map(|(part, anchors)| profiles(run, part, anchors))
             .collect::<Result<_>>()?;
-        let mut pool = FilmPool::default();
-        for (number, frames) in (0..).zip(read) {
-            for (frame, profiles) in frames {
-                pool.take(number, frame as u16, profiles);
-            }
-        }
         run.say("film: its constants are estimated".to_owned());
-        let found = pool.estimate(given);
+        let found = pooled(read).estimate(given);
         if let Some(found) = &found {
             run.say(format!("film: {found}"));
         }
@@ -62,26 +52,24 @@ pub(super) fn learn_film(
     Ok(())
 }
 
-/// Whether the constants, as they were learnt from the frames around the anchors, are others by frames that were followed since and are `good`;
-/// tells the parts. So they do not hang on a first pose that is wrong.
+/// Whether the constants, as they were learnt from the frames around the anchors, are others by frames that were followed since and are good, and
+/// `asked`; tells the parts. So they do not hang on a first pose that is wrong.
 pub(super) fn learn_again(
     run: &Run<'_>,
     stated: &Stated,
     parts: &[Part<'_>],
-    good: &[Vec<(usize, Pose)>],
+    asked: &[Vec<(usize, Pose)>],
 ) -> Result<bool> {
     let Stated::Part(given) = stated else {
         return Ok(false);
     };
     let known: Option<Vec<FilmModel>> = parts.iter().map(Part::film).collect();
-    let Some(known) = known.filter(|_| good.iter().all(|good| good.len() >= LEAST_GOOD)) else {
+    let Some(known) = known.filter(|_| asked.iter().all(|asked| !asked.is_empty())) else {
         return Ok(false);
     };
     let films = run.journal.step("film/again", || {
         run.say("film: its constants are compared with all frames".to_owned());
-        let pool = pool_of(run, parts, good)?;
-        let stands = pool.stands_by(&known, *given);
-        let found = pool.estimate(*given).filter(|_| !stands);
+        let found = pool_of(run, parts, asked)?.learnt_again(&known, *given);
         if let Some(found) = &found {
             run.say(format!("film: as followed, {found}"));
         }
@@ -94,25 +82,29 @@ pub(super) fn learn_again(
     Ok(!films.0.is_empty())
 }
 
-/// Profiles of all components in some of the frames in which each is good, from all over the film.
-fn pool_of(run: &Run<'_>, parts: &[Part<'_>], good: &[Vec<(usize, Pose)>]) -> Result<FilmPool> {
+/// Profiles of all components in the frames that are asked.
+fn pool_of(run: &Run<'_>, parts: &[Part<'_>], asked: &[Vec<(usize, Pose)>]) -> Result<FilmPool> {
+    let of_part = |(part, asked): (&Part<'_>, &Vec<(usize, Pose)>)| {
+        let mut reading = FilmReading::new(part.middle(), run.film.count(), part.number as u8);
+        for &(frame, pose) in asked {
+            reading.ask(frame, pose);
+        }
+        read(run, part, reading)
+    };
+    let each = parts.par_iter().zip(asked).take(MOST_COMPONENTS);
+    let read: Vec<_> = each.map(of_part).collect::<Result<_>>()?;
+    Ok(pooled(read))
+}
+
+/// Profiles of frames by the numbers of their components.
+fn pooled(read: Vec<Vec<(usize, Vec<FilmProfile>)>>) -> FilmPool {
     let mut pool = FilmPool::default();
-    for (part, good) in parts.iter().zip(good).take(MOST_COMPONENTS) {
-        let each = good
-            .par_iter()
-            .step_by(good.len().div_ceil(MOST_GOOD).max(1));
-        let read = each.map(|(frame, pose)| {
-            let name = (part.number as u8, *frame);
-            let profiles = part.see(run.film, *frame, |subject, image, memory| {
-                profiles_at(subject, image, pose, name, memory)
-            })?;
-            Ok((name, profiles))
-        });
-        for ((component, frame), profiles) in read.collect::<Result<Vec<_>>>()? {
-            pool.take(component, frame as u16, profiles);
+    for (number, frames) in (0..).zip(read) {
+        for (frame, profiles) in frames {
+            pool.take(number, frame as u16, profiles);
         }
     }
-    Ok(pool)
+    pool
 }
 
 /// Profiles of a component in the frames around its anchors.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Cell, Conclusion, State};
+use fluoropose::follow::{Cell, Conclusion, State, frames_to_ask};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
 use fluoropose::refine::Polarity;
@@ -139,8 +139,9 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let (parts, anchors) = begun(&run, parts)?;
     learn_film(&run, &stated, &parts, &anchors)?;
     let (mut films, mut margins) = followed(&run, &parts, &anchors)?;
-    let good = good(&run, &parts, &films, &margins);
-    if learn_again(&run, &stated, &parts, &good)? {
+    let to_ask = |number| frames_to_ask(&good(&run, (number, &parts), &films, &margins));
+    let asked: Vec<_> = (0..parts.len()).map(to_ask).collect();
+    if learn_again(&run, &stated, &parts, &asked)? {
         (films, margins) = followed(&run, &parts, &anchors)?;
     }
     finish(&run, &parts, &films, &margins)

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::anchors::{again, fill, fill_in_joint};
 use super::follow::follow;
-use super::judged::{femur_of, is_tibia, other_of, trusted};
+use super::judged::{femur_of, good, is_tibia, other_of};
 use super::part::Part;
 use super::run::Run;
 use super::sides::{Margins, settle, up_to_a_choice};
@@ -52,9 +52,9 @@ fn find_lost(
         return Ok(());
     };
     let margins = margins_of(settlings, films);
-    let [good, known] = [number, other].map(|part| trusted(run, (part, parts), films, &margins));
+    let [own, known] = [number, other].map(|part| good(run, (part, parts), films, &margins));
     let mut anew = films[number].clone();
-    fill_in_joint(run, (part, &good, &mut anew), (&parts[other], &known))?;
+    fill_in_joint(run, (part, &own, &mut anew), (&parts[other], &known))?;
     if !take_better(&mut films[number], &anew) {
         return Ok(());
     }

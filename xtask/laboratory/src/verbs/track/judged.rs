@@ -1,8 +1,9 @@
 //! Which frames of a component are good, by all that is known of both.
 
-use fluoropose::follow::{Cell, Conclusion, KnownBeside, KnownFemur, conclude, trusted_depths};
+use fluoropose::follow::{
+    Cell, Conclusion, FramePose, KnownBeside, KnownFemur, conclude, good_poses, trusted_depths,
+};
 use fluoropose::joint::beside::Beside;
-use fluoropose::pose::Pose;
 
 use super::part::Part;
 use super::run::Run;
@@ -32,36 +33,15 @@ pub(super) fn judged(
     conclude(&films[number], &margins[number], &known, &part.middle())
 }
 
-/// A component in those frames alone in which it is good.
-pub(super) fn trusted(
+/// The frames in which a component is good as it was followed, with its poses.
+pub(super) fn good(
     run: &Run<'_>,
     (number, parts): (usize, &[Part<'_>]),
     films: &[Vec<Cell>],
     margins: &[Margins],
-) -> Vec<Cell> {
+) -> Vec<Option<FramePose>> {
     let judged = judged(run, (number, parts), films, margins, &[]);
-    let each = judged.iter().zip(&films[number]);
-    let trusted = |(one, cell): (&Conclusion, &Cell)| match one.is_trusted() {
-        true => *cell,
-        false => Cell::default(),
-    };
-    each.map(trusted).collect()
-}
-
-/// The frames in which each component is good as it was followed, with its poses.
-pub(super) fn good(
-    run: &Run<'_>,
-    parts: &[Part<'_>],
-    films: &[Vec<Cell>],
-    margins: &[Margins],
-) -> Vec<Vec<(usize, Pose)>> {
-    let of_part = |number: usize| {
-        let trusted = trusted(run, (number, parts), films, margins);
-        let found = trusted.iter().enumerate();
-        let found = found.filter_map(|(frame, cell)| Some((frame, cell.found()?.pose)));
-        found.collect()
-    };
-    (0..parts.len()).map(of_part).collect()
+    good_poses(&films[number], &judged)
 }
 
 pub(super) fn is_tibia(part: &Part<'_>) -> bool {
