@@ -15,17 +15,22 @@ use crate::setup::failed::Failed;
 use crate::setup::telling;
 
 /// The longest, which begin first.
-const LONG: [&str; 10] = [
+const LONG: [&str; 15] = [
+    "shuttered",
     "following",
     "publishing",
-    "shuttered",
+    "from_nothing",
+    "crash",
+    "certainty",
+    "bad_input",
+    "seeing",
+    "axe",
+    "edges",
+    "new_user",
+    "hand",
     "by_keys",
     "own_data",
-    "from_nothing",
     "axes",
-    "new_user",
-    "certainty",
-    "axe",
 ];
 /// What is at fault by chance is at fault in a test or two. More files are not tried again.
 const MOST_TRIED_AGAIN: usize = 3;
@@ -50,7 +55,7 @@ pub(super) fn run(
     prepare: &(dyn Fn() -> Command + Sync),
 ) -> Result<Said> {
     let one = |file: &String| run_file(folder, file, prepare());
-    let files = at_once::long_first(files, &LONG, name_of);
+    let files = at_once::long_first(files, &LONG, |file| name_of(file));
     let (passed, failed): (Vec<_>, Vec<_>) = at_once::each(files, so_many, one)?
         .into_iter()
         .partition(|ended| ended.success);
@@ -96,7 +101,7 @@ pub(super) fn all_in(folder: &Path) -> Result<Vec<String>> {
 }
 
 /// The name of a file's tests, as the list of the longest has it.
-fn name_of(file: &String) -> &str {
+fn name_of(file: &str) -> &str {
     file.trim_end_matches(".test.mjs")
 }
 
