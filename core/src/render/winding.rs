@@ -260,9 +260,9 @@ impl Band {
                 let Some(end) = own_ends.get_mut(row - first) else {
                     return;
                 };
-                let place = end.number();
+                let place = u64::from(*end);
                 if let Some(crossing) = places.get_mut(place as usize) {
-                    *crossing = (column << COLUMN_BIT | leaves | chain as u32).into();
+                    *crossing = u64::from(column << COLUMN_BIT | leaves | chain as u32).into();
                 }
                 *end = (place + 1).into();
             });
@@ -296,7 +296,8 @@ fn sort(crossings: &mut [FixedPoint]) {
         };
         let mut free = own;
         for other in before.iter_mut().rev() {
-            if other.number() <= free.number() {
+            // As one number: it was written as one.
+            if u64::from(*other) <= u64::from(*free) {
                 break;
             }
             core::mem::swap(other, free);
@@ -308,7 +309,7 @@ fn sort(crossings: &mut [FixedPoint]) {
 fn fill_row(row: usize, crossings: &[FixedPoint], out: &mut MaskMut<'_>) {
     let (mut towards, mut away, mut start) = (0i32, 0i32, 0);
     for &crossing in crossings {
-        let crossing = crossing.number();
+        let crossing = u64::from(crossing) as u32;
         let column = i64::from(crossing >> COLUMN_BIT);
         if towards | away == 0 {
             start = column;
