@@ -174,11 +174,17 @@ impl<'a> Mask<'a> {
     /// A pixel, the one to its right, and the two below them, from the lowest bit; outside the mask
     /// none is set.
     pub(crate) fn square(&self, column: usize, row: usize) -> u32 {
+        match column < self.width && row < self.height {
+            true => self.square_within(column, row),
+            false => 0,
+        }
+    }
+
+    /// The same of a pixel of the mask, without a call: it is asked for some times for each sample of an outline.
+    #[inline(always)]
+    pub(crate) fn square_within(&self, column: usize, row: usize) -> u32 {
         let stride = row_words(self.width);
         let (at, shift) = (column / WORD_BITS, column % WORD_BITS);
-        if at >= stride || row >= self.height {
-            return 0;
-        }
         let word = |place: usize| self.words.get(place).copied().unwrap_or(0);
         let place = row * stride + at;
         let (above, below) = (word(place) >> shift, word(place + stride) >> shift);
@@ -225,15 +231,23 @@ impl<'a> Mask<'a> {
     /// ranges for an empty mask.
     #[must_use]
     pub fn bounds(&self) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
-        let (mut left, mut right, rows) = (usize::MAX, 0, self.rows());
-        for row in rows.clone() {
-            let words = self.row(row);
-            let last = words.iter().rposition(|&word| word != 0).map_or(0, |at| {
-                (at + 1) * WORD_BITS - words[at].leading_zeros() as usize
-            });
-            (left, right) = (left.min(next_bit(words, 0, true)), right.max(last));
-        }
-        (left.min(right)..right, rows)
+        let rows = self.rows();
+        let stride = row_words(self.width);
+        let own = self.words.get(rows.start * stride..rows.end * stride);
+        let own = own.unwrap_or_default();
+        // Of all rows together, where the first and the last word that has a pixel are.
+        let together = |at: usize| {
+            let words = own.chunks_exact(stride.max(1));
+            let any = words.fold(0, |sum, row| sum | row.get(at).copied().unwrap_or(0));
+            (any != 0).then_some((at * WORD_BITS, any))
+        };
+        let first = (0..stride).find_map(together);
+        let last = (0..stride).rev().find_map(together);
+        let columns = first.zip(last).map_or(0..0, |((first, own), (last, end))| {
+            let after = last + WORD_BITS - end.leading_zeros() as usize;
+            first + own.trailing_zeros() as usize..after
+        });
+        (columns, rows)
     }
 
     /// The rows from the first to the last that has a pixel.

@@ -18,7 +18,7 @@ const HALF: i64 = ONE / 2;
 pub(crate) const ROUNDING: f64 = 0.5 / ONE as f64;
 
 /// Beside this number an `f64` holds whole numbers alone, and those of 32 bits in its low bits.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
+pub(crate) const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Coordinates beyond this many pixels are refused: products of two must stay in 64 bits.
 pub const MAX_COORDINATE: f64 = 131_072.0;
@@ -39,9 +39,6 @@ impl FixedPoint {
         column: i32::MIN,
         row: i32::MIN,
     };
-
-    /// No coordinate of fewer units is refused.
-    pub(crate) const BEYOND: u64 = MAX_COORDINATE as u64 * ONE as u64;
 
     /// The point at so many units of 1/4096 pixel.
     pub(crate) fn of_units(column: i32, row: i32) -> Self {
@@ -100,6 +97,50 @@ impl FixedPoint {
     }
 }
 
+/// As working memory for a number of 32 bits.
+impl From<u32> for FixedPoint {
+    fn from(number: u32) -> Self {
+        Self {
+            column: number as i32,
+            row: 0,
+        }
+    }
+}
+
+impl FixedPoint {
+    #[inline(always)]
+    pub(crate) fn number(self) -> u32 {
+        self.column as u32
+    }
+}
+
+/// Bits of a quarter of a point.
+const QUARTER: u32 = u16::BITS;
+
+/// As working memory for four small numbers, each told by the lowest two bits of a number.
+impl FixedPoint {
+    #[inline(always)]
+    pub(crate) fn quarter(self, which: usize) -> u16 {
+        let half = if which & 2 == 0 {
+            self.column
+        } else {
+            self.row
+        };
+        (half as u32 >> (which as u32 % 2 * QUARTER)) as u16
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_quarter(&mut self, which: usize, number: u16) {
+        let half = if which & 2 == 0 {
+            &mut self.column
+        } else {
+            &mut self.row
+        };
+        let shift = which as u32 % 2 * QUARTER;
+        *half = *half & !(i32::from(u16::MAX) << shift) | i32::from(number) << shift;
+    }
+}
+
 /// As 64 bits of working memory for other things than points.
 impl From<u64> for FixedPoint {
     fn from(bits: u64) -> Self {
@@ -152,8 +193,11 @@ impl Edge {
     pub(crate) fn columns(&self, rows: Range<usize>) -> impl Iterator<Item = (usize, i64)> + use<> {
         // A level edge crosses no row.
         let down = self.down.max(1);
-        let (whole, part) = (self.right.div_euclid(down), self.right.rem_euclid(down));
-        let [whole, part, down] = [whole, part, down].map(i64::from);
+        let (mut whole, mut part) = (self.right / down, self.right % down);
+        if part < 0 {
+            (whole, part) = (whole - 1, part + down);
+        }
+        let (whole, part, down) = (i64::from(whole), i64::from(part), i64::from(down));
         // An edge that crosses no row may begin below the one that is named.
         let centre = (rows.start as i64 * ONE + HALF - i64::from(self.from.row)).max(0);
         let (beyond, rest) = quotient((part * centre) as u64, down as u64);

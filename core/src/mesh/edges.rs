@@ -21,7 +21,7 @@ pub use edge::{MeshEdge, PackedEdge, RimEdge};
 pub(super) use link::turn;
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;
-pub(crate) use measured::Facing;
+pub(crate) use measured::{Facing, ROUNDINGS};
 pub use pack::{PackMemory, PackedNeeds, pack_edges, packed_needed};
 pub(crate) use packed::unpacked;
 pub use packed::{PackedBox, PackedEdges, PackedRim};

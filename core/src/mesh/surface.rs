@@ -259,7 +259,7 @@ mod tests {
             });
             // On a sphere many are nearly the farthest.
             let on_sphere = |p: [f32; 3]| {
-                let length = crate::math::sqrt_single(p.iter().map(|x| x * x).sum::<f32>()).max(1e-3);
+                let length = libm::sqrtf(p.iter().map(|x| x * x).sum::<f32>()).max(1e-3);
                 p.map(|x| x / length)
             };
             let inner = points.iter().copied();

@@ -2,7 +2,7 @@
 
 pub(super) use crate::image::profile::NormalReading;
 
-use crate::math::sqrt_single;
+use crate::math::root_of_whole;
 
 /// A sample of the model's outline. It is small, because a microcontroller keeps a thousand of them: what a sample's own
 /// numbers tell again (its normal, how its place moves with the pose) is reckoned where it is needed.
@@ -117,9 +117,10 @@ impl BorderPixel {
 
     /// Outward unit normal: to the right and downwards.
     pub(super) fn normal(&self) -> [f32; 2] {
-        let [right, down] = self.slope.map(f32::from);
-        let one = 1.0 / sqrt_single(right * right + down * down);
-        [right * one, down * one]
+        let [right, down] = self.slope;
+        let (right, down) = (i32::from(right), i32::from(down));
+        let one = 1.0 / root_of_whole((right * right + down * down) as u32);
+        [right as f32 * one, down as f32 * one]
     }
 
     /// Continuous image coordinates of the pixel's centre.

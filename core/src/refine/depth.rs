@@ -59,15 +59,13 @@ impl DrawnModel<'_> {
         for step in 0..steps {
             let fraction = step as f32 / steps as f32;
             let point = core::array::from_fn(|k| from[k] + fraction * along[k]);
-            let Some([column, row]) = self.pixel(point) else {
+            let Some(place) = self.pixel(point) else {
                 continue;
             };
-            for row in row - 1..row + 2 {
-                places.within(border, row, column - 1..column + 2, |pixel| {
-                    let [near, far] = *depths.get_or_insert_with(|| vertices.map(depth));
-                    pixel.cover(near + fraction * (far - near));
-                });
-            }
+            places.around(border, place, |pixel| {
+                let [near, far] = *depths.get_or_insert_with(|| vertices.map(depth));
+                pixel.cover(near + fraction * (far - near));
+            });
         }
     }
 

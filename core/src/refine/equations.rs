@@ -107,8 +107,8 @@ impl Equations {
     }
 
     fn add_block(&mut self, block: &Block) {
-        for (row, more) in self.normal.iter_mut().zip(&block.normal) {
-            add_each(row, more);
+        for (count, (row, more)) in (1..).zip(self.normal.iter_mut().zip(&block.normal)) {
+            add_each(row.get_mut(..count).unwrap_or_default(), more);
         }
         add_each(&mut self.right, &block.right);
         self.length += f64::from(block.length);
@@ -291,6 +291,16 @@ impl Equations {
     }
 }
 
+/// Adds the products of a Jacobian with itself and with a residual to rows of normal equations.
+macro_rules! add_lower {
+    ($sums:ident, $jacobian:ident, $firm:ident, $weight:ident, $residual:ident;
+        $($row:literal: $($column:literal)*;)*) => {$(
+            $sums.right[$row] += $weight * $jacobian[$row] * $residual;
+            let held = $firm * $jacobian[$row];
+            $($sums.normal[$row][$column] += held * $jacobian[$column];)*
+    )*};
+}
+
 impl Block {
     fn add_sample(
         &mut self,
@@ -334,14 +344,17 @@ impl Block {
             false => w,
             true => length * stage.loss.curvature(residual).max(LEAST_FIRM * weight),
         };
-        for (row, &a) in jacobian.iter().enumerate() {
-            self.right[row] += w * a * residual;
-            let firm = firm * a;
-            // Solvers read the lower triangle alone.
-            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
-                *sum += firm * b;
-            }
-        }
+        // Solvers read the lower triangle alone. Number by number: loops would take a microcontroller three times as long.
+        add_lower!(
+            self, jacobian, firm, w, residual;
+            0: 0;
+            1: 0 1;
+            2: 0 1 2;
+            3: 0 1 2 3;
+            4: 0 1 2 3 4;
+            5: 0 1 2 3 4 5;
+            6: 0 1 2 3 4 5 6;
+        );
     }
 }
 

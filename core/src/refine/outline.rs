@@ -11,7 +11,7 @@ use super::stages::Stage;
 use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, WORD_BITS, Word};
-use crate::math::sqrt_single;
+use crate::math::root_of_whole;
 use crate::memory::{TooLittleMemory, first};
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -116,10 +116,11 @@ impl DrawnModel<'_> {
         let width = self.drawn.width();
         let mut count = 0;
         let end = rows.end;
+        let mut around = Around::above(self.drawn, rows.start);
         for row in rows {
             places.begin(row, count);
-            let around = Around::of(self.drawn, row);
-            for column in border_columns(self.drawn, row) {
+            around.next_row(self.drawn);
+            for column in around.border_columns() {
                 if column == 0 || column + 1 >= width {
                     continue;
                 }
@@ -140,47 +141,25 @@ impl DrawnModel<'_> {
     }
 }
 
-/// Columns of a row's pixels that are set and have a neighbour, of four, that is not.
-fn border_columns<'m>(mask: &Mask<'m>, row: usize) -> impl Iterator<Item = usize> + use<'m> {
-    let (own, above, below) = (mask.row(row), mask.row(row - 1), mask.row(row + 1));
-    let word = |words: &[Word], at: usize| words.get(at).copied().unwrap_or(0);
-    // Pixels of the border that are left in the present word, which is the one before the next.
-    let (mut next, mut bits) = (0, 0);
-    core::iter::from_fn(move || {
-        while bits == 0 {
-            let (at, &middle) = (next, own.get(next)?);
-            next += 1;
-            if middle == 0 {
-                continue;
-            }
-            let before = at.checked_sub(1).map_or(0, |at| word(own, at));
-            let left = middle << 1 | before >> (WORD_BITS - 1);
-            let right = middle >> 1 | word(own, at + 1) << (WORD_BITS - 1);
-            bits = middle & !(left & right & word(above, at) & word(below, at));
-        }
-        let bit = bits.trailing_zeros() as usize;
-        bits &= bits - 1;
-        Some((next - 1) * WORD_BITS + bit)
-    })
-}
-
 /// Half width of the window from which a normal is read, pixels.
 const WINDOW: usize = 3;
 const SIDE: usize = 2 * WINDOW + 1;
 /// A tent weighs the middle most.
 const TENT: [i32; SIDE] = [1, 2, 3, 4, 3, 2, 1];
 
-/// For each row of a window as bits: the sum of the tent over its set pixels, and that of the tent
-/// times the distance to the right of the middle.
-const ROWS: [[i8; 2]; 1 << SIDE] = {
-    let mut rows = [[0; 2]; 1 << SIDE];
+/// The tent times the distance down from the middle.
+const DOWN: [i32; SIDE] = [-3, -4, -3, 0, 3, 4, 3];
+
+/// For each row of a window as bits: the sum of the tent over its set pixels, and as many times [`RIGHT`] as that of the tent
+/// times the distance to the right of the middle. Of both a window has sums that can be told apart.
+const ROWS: [i16; 1 << SIDE] = {
+    let mut rows = [0; 1 << SIDE];
     let mut bits = 0;
     while bits < rows.len() {
         let mut at = 0;
         while at < SIDE {
             if bits >> at & 1 == 1 {
-                rows[bits][0] += TENT[at] as i8;
-                rows[bits][1] += TENT[at] as i8 * (at as i8 - WINDOW as i8);
+                rows[bits] += (TENT[at] * (1 + (at as i32 - WINDOW as i32) * RIGHT)) as i16;
             }
             at += 1;
         }
@@ -189,6 +168,10 @@ const ROWS: [[i8; 2]; 1 << SIDE] = {
     rows
 };
 
+/// More than twice any sum of the tent over a window.
+const RIGHT: i32 = 1 << RIGHT_BIT;
+const RIGHT_BIT: u32 = 10;
+
 /// A row of a mask with those from [`WINDOW`] above to as many below it; none where the mask has none.
 struct Around<'m> {
     row: usize,
@@ -196,12 +179,45 @@ struct Around<'m> {
 }
 
 impl<'m> Around<'m> {
-    fn of(mask: &Mask<'m>, row: usize) -> Self {
+    /// Before a row, which is the next.
+    fn above(mask: &Mask<'m>, row: usize) -> Self {
         let rows = core::array::from_fn(|down| {
-            let row = (row + down).checked_sub(WINDOW);
+            let row = (row + down).checked_sub(WINDOW + 1);
             row.map_or(&[] as &[Word], |row| mask.row(row))
         });
+        let row = row.wrapping_sub(1);
         Self { row, rows }
+    }
+
+    /// Goes on to the next row.
+    fn next_row(&mut self, mask: &Mask<'m>) {
+        self.row = self.row.wrapping_add(1);
+        self.rows.copy_within(1.., 0);
+        self.rows[SIDE - 1] = mask.row(self.row + WINDOW);
+    }
+
+    /// Columns of the row's pixels that are set and have a neighbour, of four, that is not.
+    fn border_columns(&self) -> impl Iterator<Item = usize> + use<'m> {
+        let [_, _, above, own, below, _, _] = self.rows;
+        let word = |words: &[Word], at: usize| words.get(at).copied().unwrap_or(0);
+        // Pixels of the border that are left in the present word, which is the one before the next.
+        let (mut next, mut bits) = (0, 0);
+        core::iter::from_fn(move || {
+            while bits == 0 {
+                let (at, &middle) = (next, own.get(next)?);
+                next += 1;
+                if middle == 0 {
+                    continue;
+                }
+                let before = at.checked_sub(1).map_or(0, |at| word(own, at));
+                let left = middle << 1 | before >> (WORD_BITS - 1);
+                let right = middle >> 1 | word(own, at + 1) << (WORD_BITS - 1);
+                bits = middle & !(left & right & word(above, at) & word(below, at));
+            }
+            let bit = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            Some((next - 1) * WORD_BITS + bit)
+        })
     }
 
     /// The outline in a border pixel: its outward normal, from the slope of the mask smoothed over
@@ -209,34 +225,34 @@ impl<'m> Around<'m> {
     /// normal `n` there are `|n_x|` vertical and `|n_y|` horizontal sides for each pixel of length,
     /// and `n_x^2 + n_y^2 = 1`.
     fn sample_at(&self, column: usize) -> Option<BorderPixel> {
-        let mut window = [0; SIDE];
-        for (bits, row) in window.iter_mut().zip(&self.rows) {
-            *bits = bits_round(row, column);
+        // The bits of the rows that came last, so that those of the last are the lowest.
+        let mut window: u32 = 0;
+        let (mut all, mut down) = (0, 0);
+        let place = Place::of(column);
+        for (row, (tent, far)) in self.rows.iter().zip(TENT.iter().zip(&DOWN)) {
+            let bits = place.bits_round(row);
+            window = window << SIDE | bits;
+            let sums = i32::from(ROWS[bits as usize % ROWS.len()]);
+            all += tent * sums;
+            down += far * sums;
         }
-        let mut slope = [0i32; 2];
-        for ((down, &bits), tent) in window.iter().enumerate().zip(&TENT) {
-            let [sum, right] = ROWS.get(bits as usize).copied().unwrap_or_default();
-            let (sum, right) = (i32::from(sum), i32::from(right));
-            slope[0] -= tent * right;
-            slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
-        }
+        // What is below those to the right, with its sign.
+        let sums = |both: i32| both << (i32::BITS - RIGHT_BIT) >> (i32::BITS - RIGHT_BIT);
+        let slope = [(sums(all) - all) >> RIGHT_BIT, -sums(down)];
         let [right, down] = slope;
         if slope == [0; 2] {
             return None;
         }
         // As far as sides face outside, times the length of the slope: whole numbers.
-        let is_set = |right: usize, down: usize| {
-            let row = window.get(down);
-            row.is_some_and(|bits| bits >> right & 1 == 1)
+        const BELOW: usize = 2 * SIDE + WINDOW;
+        const OWN: usize = BELOW + SIDE;
+        const ABOVE: usize = OWN + SIDE;
+        let beside = |along: i32, before: usize, after: usize| {
+            let outside = if along > 0 { after } else { before };
+            (window >> outside & 1 ^ 1) as i32 * along.abs()
         };
-        let sides = [(4, 3, right), (2, 3, -right), (3, 4, down), (3, 2, -down)];
-        let mut facing = 0;
-        for &(right, down, along) in &sides {
-            if along > 0 && !is_set(right, down) {
-                facing += along;
-            }
-        }
-        let length = sqrt_single((right * right + down * down) as f32);
+        let facing = beside(right, OWN - 1, OWN + 1) + beside(down, ABOVE, BELOW);
+        let length = root_of_whole((right * right + down * down) as u32);
         Some(BorderPixel {
             column: column as u16,
             row: self.row as u16,
@@ -248,22 +264,38 @@ impl<'m> Around<'m> {
     }
 }
 
-/// The pixels of a row from [`WINDOW`] to the left of a column to as many to its right, from the
-/// lowest bit; none where the row has none.
-fn bits_round(row: &[Word], column: usize) -> Word {
-    const ALL: Word = (1 << SIDE) - 1;
-    let word = |at: usize| row.get(at).copied().unwrap_or(0);
-    let bits = match column.checked_sub(WINDOW) {
-        Some(first) => {
-            let (at, right) = (first / WORD_BITS, first % WORD_BITS);
-            match right + SIDE > WORD_BITS {
-                true => word(at) >> right | word(at + 1) << (WORD_BITS - right),
-                false => word(at) >> right,
-            }
+/// Where the words of a row hold the pixels from [`WINDOW`] to the left of a column to as many to its right.
+struct Place {
+    word: usize,
+    /// Pixels before them in the word; as many more or fewer than none as the row has none of.
+    before: i32,
+}
+
+impl Place {
+    fn of(column: usize) -> Self {
+        let first = column.saturating_sub(WINDOW);
+        Self {
+            word: first / WORD_BITS,
+            before: (first % WORD_BITS) as i32 - (first + WINDOW - column) as i32,
         }
-        None => word(0) << (WINDOW - column),
-    };
-    bits & ALL
+    }
+
+    /// These pixels, from the lowest bit; none where the row has none.
+    #[inline(always)]
+    fn bits_round(&self, row: &[Word]) -> Word {
+        const ALL: Word = (1 << SIDE) - 1;
+        let word = |at: usize| row.get(at).copied().unwrap_or(0);
+        let (own, before) = (word(self.word), self.before);
+        if before < 0 {
+            return own << -before & ALL;
+        }
+        // A word has more pixels than a window, so that of the next one those that matter stay.
+        let next = match before as usize + SIDE > WORD_BITS {
+            true => word(self.word + 1) << (WORD_BITS as i32 - before),
+            false => 0,
+        };
+        (own >> before | next) & ALL
+    }
 }
 
 #[cfg(test)]
@@ -301,7 +333,9 @@ mod tests {
             let mask = Mask::new(&words, 70, 9).expect("no bit beyond the last column");
             let [right, down] = slope(&mask, column, row).map(f64::from);
             let length = sqrt(right * right + down * down);
-            let sample = Around::of(&mask, row).sample_at(column);
+            let mut around = Around::above(&mask, row);
+            around.next_row(&mask);
+            let sample = around.sample_at(column);
             prop_assert_eq!(sample.is_none(), length == 0.0);
             let Some(sample) = sample else { return Ok(()) };
             prop_assert_eq!(sample.slope.map(f64::from), [right, down]);
@@ -344,15 +378,17 @@ mod tests {
         }
         let mask = mask.into_mask();
         let mut length = 0.0;
+        let mut around = Around::above(&mask, 1);
         for row in 1..SIDE - 1 {
-            for column in border_columns(&mask, row) {
+            around.next_row(&mask);
+            for column in around.border_columns() {
                 let set = |c: usize, r: usize| mask.get(c, r);
                 let inside = set(column - 1, row)
                     && set(column + 1, row)
                     && set(column, row - 1)
                     && set(column, row + 1);
                 assert!(set(column, row) && !inside);
-                let sample = Around::of(&mask, row).sample_at(column).expect("a slope");
+                let sample = around.sample_at(column).expect("a slope");
                 length += f64::from(sample.weight);
                 let (x, y) = (column as f64 + 0.5 - centre, row as f64 + 0.5 - centre);
                 let [right, down] = sample.normal().map(f64::from);

@@ -20,8 +20,8 @@ pub(super) struct Places<'p> {
     rows: Range<usize>,
 }
 
-/// Samples of a row that are sooner looked at than searched.
-const FEW: usize = 6;
+/// Samples of a row, or of three beside each other, that are sooner looked at than searched.
+const FEW: usize = 24;
 
 impl<'p> Places<'p> {
     /// No sample yet in some rows of a frame. `memory` is [`places_needed`] numbers of any value.
@@ -51,24 +51,66 @@ impl<'p> Places<'p> {
         mut visit: impl FnMut(&mut BorderPixel),
     ) {
         let at = row.wrapping_sub(self.rows.start);
-        let Some(&[first, end]) = self.before.get(at..).and_then(<[u16]>::first_chunk) else {
+        if let Some(&[first, end]) = self.before.get(at..).and_then(<[u16]>::first_chunk) {
+            let own = samples.get_mut(usize::from(first)..usize::from(end));
+            visit_columns(own.unwrap_or_default(), &columns, &mut visit);
+        }
+    }
+
+    /// The same of the samples in a pixel and beside it.
+    #[inline]
+    pub(super) fn around(
+        &self,
+        samples: &mut [BorderPixel],
+        [column, row]: [usize; 2],
+        mut visit: impl FnMut(&mut BorderPixel),
+    ) {
+        let columns = column.saturating_sub(1)..column + 2;
+        // One number more than there are rows.
+        let (before, rows) = (&*self.before, self.rows.len());
+        let first = row.saturating_sub(1 + self.rows.start);
+        let end = (row + 2).saturating_sub(self.rows.start).min(rows);
+        let ends = before.get(first..end + 1).unwrap_or_default();
+        let (Some(&all), Some(&after)) = (ends.first(), ends.last()) else {
             return;
         };
-        let own = samples.get_mut(usize::from(first)..usize::from(end));
+        let own = samples.get_mut(usize::from(all)..usize::from(after));
         let own = own.unwrap_or_default();
-        // Most rows have a few, some have all of a flat side.
-        let first = match own.len() {
-            ..=FEW => 0,
-            _ => own.partition_point(|sample| usize::from(sample.column) < columns.start),
-        };
-        for sample in own.get_mut(first..).unwrap_or_default() {
-            let column = usize::from(sample.column);
-            if column >= columns.end {
-                return;
+        if own.len() <= FEW {
+            for sample in own {
+                let right = usize::from(sample.column).wrapping_sub(columns.start);
+                if right < columns.len() {
+                    visit(sample);
+                }
             }
-            if column >= columns.start {
-                visit(sample);
-            }
+            return;
+        }
+        for ends in ends.windows(2) {
+            let own = samples.get_mut(usize::from(ends[0])..usize::from(ends[1]));
+            visit_columns(own.unwrap_or_default(), &columns, &mut visit);
+        }
+    }
+}
+
+/// Calls `visit` with those of a row's samples that are in some columns.
+#[inline]
+fn visit_columns(
+    own: &mut [BorderPixel],
+    columns: &Range<usize>,
+    visit: &mut impl FnMut(&mut BorderPixel),
+) {
+    // Most rows have a few, some have all of a flat side.
+    let first = match own.len() {
+        ..=FEW => 0,
+        _ => own.partition_point(|sample| usize::from(sample.column) < columns.start),
+    };
+    for sample in own.get_mut(first..).unwrap_or_default() {
+        let column = usize::from(sample.column);
+        if column >= columns.end {
+            return;
+        }
+        if column >= columns.start {
+            visit(sample);
         }
     }
 }

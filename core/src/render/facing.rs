@@ -11,7 +11,7 @@ use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
 use crate::math::{norm, sqrt};
 use crate::mesh::edges::{
-    EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdge, PackedEdges, unpacked,
+    EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdges, ROUNDINGS, unpacked,
 };
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
@@ -131,35 +131,19 @@ impl FacingTest {
             let margin = bounds.thin * per_mm + bounds.small * least + rounding;
             !self.is_clear(bounds, margin)
         };
-        packed.for_each_group(is_wanted, |edges| {
-            self.measured_contour((edges, measure), images, &mut visit);
+        // No vertex is farther than the distance that the last is a part of.
+        let measured = [per_mm, least, rounding * (1.0 + ROUNDINGS / SINGLE)];
+        packed.for_each_group(is_wanted, |group| {
+            let own = (group, images.vertices());
+            measure(&self.place, measured, own, &mut |edge, sides| {
+                let edge = unpacked(&group.edge(edge));
+                match sides.unwrap_or_else(|| Self::faces(&edge, images)) {
+                    [true, false] => visit([edge.from, edge.to]),
+                    [false, true] => visit([edge.to, edge.from]),
+                    _ => {}
+                }
+            });
         });
-    }
-
-    fn measured_contour(
-        &self,
-        (edges, measure): (&[PackedEdge], Facing),
-        images: &mut Images<'_>,
-        visit: &mut impl FnMut([u32; 2]),
-    ) {
-        for edge in edges {
-            let edge = unpacked(edge);
-            let (Some(from), Some(to), Some(forth), Some(back)) = (
-                images.vertex(edge.from),
-                images.vertex(edge.to),
-                images.vertex(edge.forth),
-                images.vertex(edge.back),
-            ) else {
-                continue;
-            };
-            let sides = measure(&self.place, self.margins, [from, to, forth, back]);
-            let sides = sides.unwrap_or_else(|| Self::faces(&edge, images));
-            match sides {
-                [true, false] => visit([edge.from, edge.to]),
-                [false, true] => visit([edge.to, edge.from]),
-                _ => {}
-            }
-        }
     }
 
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.

@@ -48,9 +48,8 @@ pub(crate) struct Images<'i> {
     owners: &'i mut [Projected],
 }
 
-/// Slots whose owners are kept in one place of memory, and bits of each owner.
+/// Slots whose owners are kept in one place of memory.
 const OWNERS: usize = 4;
-const OWNER_BITS: usize = 16;
 
 impl<'i> Images<'i> {
     /// Images in borrowed memory, none of which is made. All vertices must have images.
@@ -107,9 +106,9 @@ impl<'i> Images<'i> {
         }
     }
 
-    /// A vertex in model coordinates, mm; `None` where there is no such vertex.
-    pub(crate) fn vertex(&self, vertex: u32) -> Option<&'i [f32; 3]> {
-        self.vertices.get(vertex as usize)
+    /// The vertices in model coordinates, mm.
+    pub(crate) fn vertices(&self) -> &'i [[f32; 3]] {
+        self.vertices
     }
 
     pub(crate) fn of(&mut self, vertex: u32) -> Projected {
@@ -155,40 +154,32 @@ impl<'i> Images<'i> {
 /// The slot of a vertex that is not the only one to use it.
 struct Shared {
     slot: usize,
-    owner: u64,
+    owner: usize,
 }
 
 impl Shared {
     fn of(vertex: usize, slots: usize) -> Self {
         Self {
             slot: vertex.checked_rem(slots).unwrap_or(0),
-            owner: vertex.checked_div(slots).unwrap_or(0) as u64,
+            owner: vertex.checked_div(slots).unwrap_or(0),
         }
-    }
-
-    /// Bits of the owner below those of the slot.
-    fn shift(&self) -> usize {
-        self.slot % OWNERS * OWNER_BITS
     }
 
     /// The image of the vertex, where the slot holds it.
     fn image(&self, slots: &[Projected], owners: &[Projected]) -> Option<Projected> {
-        let owner = u64::from(*owners.get(self.slot / OWNERS)?) >> self.shift();
+        let owner = owners.get(self.slot / OWNERS)?.quarter(self.slot);
         let image = *slots.get(self.slot)?;
-        let is_own = owner & u64::from(u16::MAX) == self.owner && image != FixedPoint::NONE;
+        let is_own = usize::from(owner) == self.owner && image != FixedPoint::NONE;
         is_own.then_some(image)
     }
 
     /// Takes the slot; an owner whose number is too large for its bits does not.
     fn keep(&self, image: Projected, slots: &mut [Projected], owners: &mut [Projected]) {
         let (owner, slot) = (owners.get_mut(self.slot / OWNERS), slots.get_mut(self.slot));
-        let (Some(owner), Some(slot), true) = (owner, slot, self.owner <= u64::from(u16::MAX))
-        else {
-            return;
-        };
-        let others = u64::from(*owner) & !(u64::from(u16::MAX) << self.shift());
-        *owner = (others | self.owner << self.shift()).into();
-        *slot = image;
+        if let (Some(owner), Some(slot), Ok(own)) = (owner, slot, u16::try_from(self.owner)) {
+            owner.set_quarter(self.slot, own);
+            *slot = image;
+        }
     }
 }
 

@@ -2,42 +2,47 @@
 //! 1/4096 pixel, which they are but for a few in a hundred. The others are left to doubles, so that every target draws the same pixels.
 
 use crate::camera::Camera;
-use crate::image::scan::{FixedPoint, ONE};
+use crate::image::scan::{FixedPoint, ONE, WHOLE};
 use crate::mesh::Bounds;
 use crate::pose::Pose;
 
 /// Whether the processor reckons doubles by functions of hundreds of instructions each.
 pub(super) const WORTH_IT: bool = cfg!(any(target_arch = "arm", target_arch = "riscv32"));
 
-/// Binary places of rotations, and those of places in the camera's axes beyond those of vertices.
-const TURN: u32 = 30;
-const FINER: u32 = 8;
-/// Binary places of an image before it is rounded, and one of it.
-const REST: u32 = 12;
-const UNIT: i64 = 1 << REST;
-/// Most binary places of vertices, and bits of their whole numbers.
-const VERTEX: i32 = 24;
-const BITS: i32 = 30;
+/// Binary places of an image before it is rounded: those of 64 bits that fall below the lower half, and of the whole number.
+const BELOW: u32 = 6;
+const REST: u32 = 32 + BELOW;
+/// Farthest from the frame's corner that such an image may be, pixels; those beyond are left to doubles.
+const BEYOND_PX: f64 = 4096.0;
+/// Bits of vertices, and most binary places.
+const BITS: i32 = 31;
+const VERTEX: i32 = 26;
 /// Distances beyond this many mm are left to doubles.
 const FAR: f64 = 1_048_576.0;
 /// Off the axis at most, as a tangent.
 const ASIDE: f64 = 0.5;
+/// A reciprocal is within so many parts in `2^31`.
+const RECIPROCAL_PARTS: f64 = 5.0;
+/// What is left of a range for what rounding adds.
+const ROOM: f64 = 1.0 - 1.0 / 1_048_576.0;
+/// A distance from which on its reciprocal has 31 bits.
+const NEAREST: u32 = (1 << 31) + 16;
+/// Of a unit, for what is not counted.
+const SPARE: f64 = 1.0 / 2048.0;
 
-/// A camera and a pose in whole numbers.
+/// A camera and a pose in whole numbers of 32 bits. Distances are counted so that all of a model's have their highest bit set; places aside
+/// several times as finely.
 pub(super) struct WholeImages {
-    /// What makes whole numbers of a vertex: `2^s`.
+    /// What makes whole numbers of a vertex.
     scale: f32,
+    /// Aside, upwards, away: each so that the upper half of a product with a vertex is a place or distance.
     rotation: [[i32; 3]; 3],
-    /// In `2^-(s + FINER)` mm, as is the least distance.
-    translation: [i64; 3],
-    nearest: i64,
-    /// Bits by which places aside may be finer than distances.
-    aside: u32,
-    /// Focal lengths, and how far products with them are to be shifted.
-    focal: [(i32, u32); 2],
+    translation: [i32; 3],
+    focal: [i32; 2],
+    /// The principal point, with half a unit, and half of what is cut off before it is added.
     principal: [i64; 2],
-    /// Nearer to the middle between two roundings it is not certain which is right.
-    doubt: i64,
+    /// Nearer to the middle between two roundings it is not certain which is right, parts of a unit in 32 bits.
+    doubt: u32,
 }
 
 impl WholeImages {
@@ -51,6 +56,7 @@ impl WholeImages {
         let tangent = tangents[0].max(tangents[1]);
         let is_possible = near > 0.0
             && far < FAR
+            && far < ROOM * 2.0 * near
             && tangent < ASIDE
             && largest < FAR
             && pose.is_rigid(RIGID)
@@ -58,85 +64,108 @@ impl WholeImages {
         if !is_possible {
             return None;
         }
+        // Of a mm of a vertex, of distance, of a place aside.
         let places = (BITS - 1 - exponent(largest)).min(VERTEX);
-        let aside = (-2 - exponent(tangent)).clamp(0, 8) as u32;
-        let fine = power(places + FINER as i32);
-        let focal = camera.focal().map(|focal| focal * ONE as f64);
-        let place_mm = 4.0 / power(places);
-        let longest = focal[0].max(focal[1]);
-        // Of vertices and rotations; of what is cut off two quotients; of distance, reciprocal and focal length.
-        let places_off = (1.0 + tangent) * place_mm / near;
-        let cut_off = (2.0 / power(aside as i32) + 8.0 * tangent) / power(31);
-        let doubt = UNIT as f64 * longest * (places_off + cut_off) + 4.0;
-        if doubt > UNIT as f64 / 8.0 {
+        let away = ROOM * power(32) / far;
+        let turn = away * power(32 - places);
+        // Ratios of places aside to distances stay below a half; rotations have 31 bits and a sign.
+        let finer = (-2 - exponent(tangent)).min(BITS - 1 - exponent(turn));
+        if finer < 0 {
             return None;
         }
+        let aside = away * power(finer);
+        let focal = camera
+            .focal()
+            .map(|focal| focal * ONE as f64 * power(REST as i32 - 31 - finer));
+        let longest_px = camera.focal()[0].max(camera.focal()[1]);
+        let principal = camera.principal_point();
+        let farthest = principal[0].abs().max(principal[1].abs()) + longest_px * tangent;
+        if focal[0].max(focal[1]) >= power(31) || farthest >= BEYOND_PX {
+            return None;
+        }
+        // What a place errs by that is counted so, mm: three numbers of a vertex cut off, rotations rounded, a sum cut off and a
+        // translation rounded.
+        let off = |of_a_mm: f64| {
+            1.75 / power(places) + (1.5 * largest * power(places - 32) + 1.0) / of_a_mm
+        };
+        let places_off = (off(aside) + tangent * off(away)) / near;
+        let quotients_off =
+            tangent * (RECIPROCAL_PARTS + power(30) / focal[0].min(focal[1])) + 0.5 / power(finer);
+        let units = longest_px * ONE as f64;
+        let doubt = units * (places_off + quotients_off / power(31)) + SPARE;
+        if doubt > 0.125 {
+            return None;
+        }
+        let [x, y, z] = pose.translation;
+        let half = power(REST as i32 - 1);
+        let principal = principal.map(|x| x * ONE as f64 * power(REST as i32) + half);
+        let counted = [aside, aside, away];
         Some(Self {
             scale: power(places) as f32,
-            rotation: pose
-                .rotation
-                .map(|row| row.map(|x| (x * power(TURN as i32)) as i32)),
-            translation: pose.translation.map(|x| (x * fine) as i64),
-            nearest: (near * fine) as i64,
-            aside,
-            focal: focal.map(|focal| {
-                let finer = 30 - exponent(focal);
-                let shift = 31 + aside as i32 + finer - REST as i32;
-                ((focal * power(finer)) as i32, shift as u32)
+            rotation: core::array::from_fn(|k| {
+                let of_a_turn = counted[k] * power(32 - places);
+                pose.rotation[k].map(|x| nearest(x * of_a_turn))
             }),
-            principal: camera
-                .principal_point()
-                .map(|x| (x * (ONE * UNIT) as f64) as i64),
-            doubt: doubt as i64 + 1,
+            // With half of what is cut off of a product.
+            translation: [
+                nearest(x * aside + 0.5),
+                nearest(y * aside + 0.5),
+                nearest(-z * away - 0.5),
+            ],
+            focal: focal.map(nearest),
+            principal: [
+                (principal[0] + 0.5 * focal[0]) as i64,
+                (principal[1] - 0.5 * focal[1]) as i64,
+            ],
+            doubt: (doubt * power(32)) as u32 + 1,
         })
     }
 
     /// The image of a vertex, where it is certain.
+    #[inline(always)]
     pub(super) fn of(&self, vertex: &[f32; 3]) -> Option<FixedPoint> {
-        let [x, y, z] = vertex.map(|x| (x * self.scale) as i32);
-        let is_small = |x: i32| x.unsigned_abs() < 1 << BITS;
-        if !(is_small(x) && is_small(y) && is_small(z)) {
+        // One after the other: of `map` some compilers leave a loop.
+        let scale = self.scale;
+        let vertex = [
+            (vertex[0] * scale) as i32,
+            (vertex[1] * scale) as i32,
+            (vertex[2] * scale) as i32,
+        ];
+        let [right, up, away] = &self.rotation;
+        let distance = self.translation[2].wrapping_sub(turned(away, &vertex)) as u32;
+        if distance < NEAREST {
             return None;
         }
-        let [to_right, upwards, depth] = [0, 1, 2].map(|k| {
-            let [a, b, c] = self.rotation[k];
-            let sum = product(a, x)
-                .wrapping_add(product(b, y))
-                .wrapping_add(product(c, z));
-            (sum >> (TURN - FINER)) + self.translation[k]
-        });
-        let depth = -depth;
-        if depth < self.nearest {
-            return None;
-        }
-        // Distance from its highest bit on, and places aside as many times finer.
-        let up = depth.leading_zeros();
-        let reciprocal = reciprocal((depth << up >> 32) as u32);
-        let from_axis = |place: i64, (focal, shift): (i32, u32)| {
-            let limit = depth.unsigned_abs() >> (self.aside + 1);
-            if place.unsigned_abs() > limit {
-                return None;
-            }
-            let place = (place << (up + self.aside) >> 32) as i32;
-            let ratio = (i64::from(place) * i64::from(reciprocal)) >> 31;
-            Some(product(focal, ratio as i32) >> shift)
-        };
-        let column = self.principal[0] + from_axis(to_right, self.focal[0])?;
-        let row = self.principal[1] - from_axis(upwards, self.focal[1])?;
-        Some(FixedPoint::of_units(
-            self.rounded(column)?,
-            self.rounded(row)?,
-        ))
+        let reciprocal = reciprocal(distance) as i32;
+        let right = self.translation[0].wrapping_add(turned(right, &vertex));
+        let up = self.translation[1].wrapping_add(turned(up, &vertex));
+        let [right, up] = [right, up].map(|place| (product(place, reciprocal) >> 31) as i32);
+        let column = self.principal[0].wrapping_add(product(right, self.focal[0]));
+        let row = self.principal[1].wrapping_sub(product(up, self.focal[1]));
+        let is_certain = self.is_certain(column) & self.is_certain(row);
+        is_certain.then(|| FixedPoint::of_units((column >> REST) as i32, (row >> REST) as i32))
     }
 
-    /// The nearest whole number of units.
-    fn rounded(&self, value: i64) -> Option<i32> {
-        let value = value + UNIT / 2;
-        let rest = value & (UNIT - 1);
-        let is_certain = rest > self.doubt && rest < UNIT - self.doubt;
-        let units = value >> REST;
-        (is_certain && units.unsigned_abs() < FixedPoint::BEYOND).then_some(units as i32)
+    /// Whether the whole number before an image is that of doubles, too.
+    #[inline(always)]
+    fn is_certain(&self, image: i64) -> bool {
+        let rest = (image >> BELOW) as u32;
+        rest.wrapping_sub(self.doubt) < (2 * self.doubt).wrapping_neg()
     }
+}
+
+/// The upper half of a vertex's product with a row of a rotation.
+#[inline(always)]
+fn turned(row: &[i32; 3], vertex: &[i32; 3]) -> i32 {
+    let sum = product(row[0], vertex[0])
+        .wrapping_add(product(row[1], vertex[1]))
+        .wrapping_add(product(row[2], vertex[2]));
+    (sum >> 32) as i32
+}
+
+/// The nearest whole number, of which the lower 32 bits are kept.
+fn nearest(x: f64) -> i32 {
+    (x + WHOLE).to_bits() as i32
 }
 
 /// Poses are rigid but for this.

@@ -190,7 +190,7 @@ fn for_each_edge(
 }
 
 /// Bits of a crossing below its column: that it leaves, and its chains.
-const LEAVES: u64 = 4;
+const LEAVES: u32 = 4;
 const COLUMN_BIT: u32 = 3;
 
 /// Writes how many edges cross each row.
@@ -198,11 +198,11 @@ fn count_crossings(parts: Parts<'_>, counts: &mut [FixedPoint]) {
     counts.fill(FixedPoint::ZERO);
     for_each_edge(parts, counts.len(), |_, _, rows| {
         add_to(counts, rows.start, 1);
-        add_to(counts, rows.end, u64::MAX);
+        add_to(counts, rows.end, u32::MAX);
     });
-    let mut in_row = 0u64;
+    let mut in_row = 0u32;
     for count in counts {
-        in_row = in_row.wrapping_add(u64::from(*count));
+        in_row = in_row.wrapping_add(count.number());
         *count = in_row.into();
     }
 }
@@ -215,10 +215,10 @@ struct Band {
 impl Band {
     /// As many rows from one on as there is room for the crossings of; `None` where those of that one do not fit.
     fn from(start: usize, counts: &[FixedPoint], room: usize) -> Option<Self> {
-        let mut left = room as u64;
+        let mut left = room;
         let mut end = start;
         for &count in counts.get(start..)? {
-            let Some(rest) = left.checked_sub(u64::from(count)) else {
+            let Some(rest) = left.checked_sub(count.number() as usize) else {
                 break;
             };
             (left, end) = (rest, end + 1);
@@ -236,13 +236,13 @@ impl Band {
     ) {
         let ends = counts.get_mut(self.rows.clone()).unwrap_or_default();
         // Where the crossings of each row begin; as each is written, where they end.
-        let mut before = 0u64;
+        let mut before = 0u32;
         for end in &mut *ends {
-            let count = u64::from(*end);
+            let count = end.number();
             *end = before.into();
             before += count;
         }
-        let (width, height) = (out.width() as i64, out.height());
+        let (width, height) = (out.width() as i32, out.height());
         for_each_edge(parts, height, |chain, ends_of, rows| {
             let rows = rows.start.max(self.rows.start)..rows.end.min(self.rows.end);
             if rows.is_empty() {
@@ -252,20 +252,24 @@ impl Band {
             let [from, to] = ends_of;
             let leaves = if to.is_above(from) { 0 } else { LEAVES };
             let edge = Edge::new(ends_of);
-            for (row, column) in edge.columns(rows) {
-                let column = column.clamp(0, width) as u64;
-                let Some(end) = ends.get_mut(row - self.rows.start) else {
-                    continue;
+            let first = rows.start;
+            let own_ends = ends.get_mut(first - self.rows.start..).unwrap_or_default();
+            // By a function that is called: a loop of its own would ask the iterator, which is not inlined.
+            edge.columns(rows).for_each(|(row, column)| {
+                let column = (column as i32).max(0).min(width) as u32;
+                let Some(end) = own_ends.get_mut(row - first) else {
+                    return;
                 };
-                if let Some(place) = places.get_mut(u64::from(*end) as usize) {
-                    *place = (column << COLUMN_BIT | leaves | chain as u64).into();
+                let place = u64::from(*end);
+                if let Some(crossing) = places.get_mut(place as usize) {
+                    *crossing = u64::from(column << COLUMN_BIT | leaves | chain as u32).into();
                 }
-                *end = (u64::from(*end) + 1).into();
-            }
+                *end = (place + 1).into();
+            });
         });
         let mut start = 0;
         for (row, &end) in self.rows.clone().zip(&*ends) {
-            let end = u64::from(end) as usize;
+            let end = end.number() as usize;
             let crossings = places.get_mut(start..end).unwrap_or_default();
             sort(crossings);
             fill_row(row, crossings, out);
@@ -275,9 +279,9 @@ impl Band {
 }
 
 /// Adds to the number of a row, where there is such a row.
-fn add_to(rows: &mut [FixedPoint], row: usize, more: u64) {
+fn add_to(rows: &mut [FixedPoint], row: usize, more: u32) {
     if let Some(number) = rows.get_mut(row) {
-        *number = u64::from(*number).wrapping_add(more).into();
+        *number = number.number().wrapping_add(more).into();
     }
 }
 
@@ -292,6 +296,7 @@ fn sort(crossings: &mut [FixedPoint]) {
         };
         let mut free = own;
         for other in before.iter_mut().rev() {
+            // As one number: it was written as one.
             if u64::from(*other) <= u64::from(*free) {
                 break;
             }
@@ -304,16 +309,16 @@ fn sort(crossings: &mut [FixedPoint]) {
 fn fill_row(row: usize, crossings: &[FixedPoint], out: &mut MaskMut<'_>) {
     let (mut towards, mut away, mut start) = (0i32, 0i32, 0);
     for &crossing in crossings {
-        let crossing = u64::from(crossing);
-        let column = (crossing >> COLUMN_BIT) as i64;
+        let crossing = u64::from(crossing) as u32;
+        let column = i64::from(crossing >> COLUMN_BIT);
         if towards | away == 0 {
             start = column;
         }
         let turn = if crossing & LEAVES == 0 { 1 } else { -1 };
-        if crossing & Chain::Towards as u64 != 0 {
+        if crossing & Chain::Towards as u32 != 0 {
             towards += turn;
         }
-        if crossing & Chain::Away as u64 != 0 {
+        if crossing & Chain::Away as u32 != 0 {
             away += turn;
         }
         if towards | away == 0 {

@@ -2,7 +2,7 @@
 
 use super::boxes::{EdgeBox, EdgeGroup};
 use super::edge::RimEdge;
-use super::measured::{Facing, faces_surely};
+use super::measured::{Facing, contour_of};
 use super::packed::PackedEdges;
 use crate::mesh::surface::SurfaceMark;
 
@@ -48,7 +48,7 @@ impl<'e> Edges<'e> {
             groups: &[],
             rims: &[],
             packed,
-            faces: Some(faces_surely),
+            faces: Some(contour_of),
             mark,
         }
     }

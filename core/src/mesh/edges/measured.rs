@@ -1,22 +1,53 @@
 //! Which way the triangles beside an edge face, measured from their vertices.
 
-/// Whether the triangles beside an edge, first that which runs it forth, face the camera, where that is certain of both: of the
-/// camera's place in model coordinates, margins (for each mm of the longest side; beside that; how far planes are from where they
-/// seem, mm), and the ends of the edge with the third corners of both triangles.
-pub(crate) type Facing = fn(&[f32; 3], [f32; 3], [&[f32; 3]; 4]) -> Option<[bool; 2]>;
+use super::tight::{EdgePlaces, Group};
 
-/// Twelve roundings to 32 bits, as part of a number.
-const ROUNDINGS: f32 = 12.0 * f32::EPSILON;
+/// Calls a function for each edge of a group that may be on the contour, with whether the triangles beside it, first that which runs it
+/// forth, face the camera, where that is certain of both: of the camera's place in model coordinates, margins (for each mm of the longest
+/// side; beside that; how far planes are from where they seem with [`ROUNDINGS`] of the way to a vertex, mm), and of the surface's vertices.
+pub(crate) type Facing = fn(
+    &[f32; 3],
+    [f32; 3],
+    (&Group<'_>, &[[f32; 3]]),
+    &mut dyn FnMut(EdgePlaces, Option<[bool; 2]>),
+);
 
 /// See [`Facing`].
+pub(super) fn contour_of(
+    place: &[f32; 3],
+    margins: [f32; 3],
+    (group, vertices): (&Group<'_>, &[[f32; 3]]),
+    visit: &mut dyn FnMut(EdgePlaces, Option<[bool; 2]>),
+) {
+    for &edge in group.edges() {
+        let [from, to, forth, back] = group.edge(edge);
+        let corner = |vertex: u16| vertices.get(usize::from(vertex));
+        let (Some(from), Some(to), Some(forth), Some(back)) =
+            (corner(from), corner(to), corner(forth), corner(back))
+        else {
+            continue;
+        };
+        let corners = [from, to, forth, back];
+        match faces_surely(place, margins, corners) {
+            Some([forth, back]) if forth == back => {}
+            sides => visit(edge, sides),
+        }
+    }
+}
+
+/// Twelve roundings to 32 bits of the three components of a way, together, as part of its length.
+pub(crate) const ROUNDINGS: f32 = 12.0 * 1.75 * f32::EPSILON;
+
+/// Whether the triangles forth and back beside an edge face the camera, of its ends and both third corners.
 ///
 /// Doubled area times distance from the plane is a determinant of two sides and the way from the camera. Sides are
 /// differences of numbers of 32 bits, so they err by one rounding of themselves alone, and the determinant by less than
 /// twelve roundings of the product of three lengths; a doubled area is below the product of its longest side with itself. That
 /// side is no longer than the two that are measured together.
-pub(super) fn faces_surely(
+#[inline(always)]
+fn faces_surely(
     place: &[f32; 3],
-    [per_mm, least, rounding]: [f32; 3],
+    margins: [f32; 3],
     [from, to, forth, back]: [&[f32; 3]; 4],
 ) -> Option<[bool; 2]> {
     let (edge, way) = (minus(to, from), minus(place, from));
@@ -26,9 +57,7 @@ pub(super) fn faces_surely(
         way[2] * edge[0] - way[0] * edge[2],
         way[0] * edge[1] - way[1] * edge[0],
     ];
-    let rounding = rounding + ROUNDINGS * length(&way);
     let along = length(&edge);
-    let margins = [per_mm, least, rounding];
     let forth = from_plane(&across, along, &minus(forth, from), margins)?;
     let back = from_plane(&across, along, &minus(back, from), margins)?;
     Some([forth < 0.0, back > 0.0])

@@ -5,7 +5,7 @@
 
 use super::boxes::{EdgeBox, IN_BOX};
 use super::edge::{MeshEdge, PackedEdge, RimEdge};
-use super::tight::{GroupRoom, TightGroups};
+use super::tight::{Group, GroupRoom, TightGroups};
 
 /// A box as numbers: middle and reach of its triangles' duals, greatest reciprocals of a height and of a doubled area.
 pub type PackedBox = [f32; 10];
@@ -84,27 +84,33 @@ impl PackedEdges<'_> {
     pub(crate) fn for_each_group(
         &self,
         mut is_wanted: impl FnMut(&EdgeBox) -> bool,
-        mut visit: impl FnMut(&[PackedEdge]),
+        mut visit: impl FnMut(&Group<'_>),
     ) {
+        let mut room = GroupRoom::EMPTY;
         for (numbers, edges) in self.boxes.iter().zip(self.edges.chunks(IN_BOX)) {
             if is_wanted(&EdgeBox::of_numbers(numbers)) {
-                visit(edges);
+                visit(&room.listed(edges));
             }
         }
-        let mut room = GroupRoom::EMPTY;
         for (halves, group) in self.tight {
             if is_wanted(&EdgeBox::of_halves(halves)) {
-                visit(group.unpacked(&mut room));
+                visit(&group.unpacked(&mut room));
             }
         }
     }
 
+    fn for_each_packed(&self, mut visit: impl FnMut(&PackedEdge)) {
+        let each = |group: &Group<'_>| {
+            for &edge in group.edges() {
+                visit(&group.edge(edge));
+            }
+        };
+        self.for_each_group(|_| true, each);
+    }
+
     /// Calls `visit` with each edge.
     pub(crate) fn for_each_edge(&self, mut visit: impl FnMut(MeshEdge)) {
-        self.for_each_group(
-            |_| true,
-            |edges| edges.iter().map(unpacked).for_each(&mut visit),
-        );
+        self.for_each_packed(|edge| visit(unpacked(edge)));
     }
 
     /// Calls `visit` with each triangle of the surface, run as its neighbours are. Of its three edges one does: that before
@@ -115,11 +121,10 @@ impl PackedEdges<'_> {
                 visit(&[from, to, third].map(u32::from));
             }
         };
-        let mut both = |&[from, to, forth, back]: &PackedEdge| {
+        self.for_each_packed(|&[from, to, forth, back]| {
             side([from, to, forth]);
             side([to, from, back]);
-        };
-        self.for_each_group(|_| true, |edges| edges.iter().for_each(&mut both));
+        });
         self.rims.iter().copied().for_each(side);
     }
 }

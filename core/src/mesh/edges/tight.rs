@@ -45,14 +45,66 @@ pub(super) struct TightGroup<'e> {
 /// Where a group's vertices and edges are written.
 pub(super) struct GroupRoom {
     vertices: [u16; MOST_VERTICES],
-    edges: [PackedEdge; IN_BOX],
+    edges: [EdgePlaces; IN_BOX],
 }
+
+/// An edge as places of its vertices in a list: from, to, and the third ones of the triangles that run it forth and back, from the lowest
+/// bit on.
+pub(crate) type EdgePlaces = u32;
+
+/// The edges in a box, by their own list of vertices.
+pub(crate) struct Group<'r> {
+    vertices: &'r [u16; MOST_VERTICES],
+    edges: &'r [EdgePlaces],
+    /// Of a place.
+    bits: usize,
+}
+
+/// Bits of a place where there are as many vertices as can be; the first four places, and four more of each.
+const MOST_BITS: usize = bits_for(MOST_VERTICES);
+const FIRST_FOUR: EdgePlaces = 1 << MOST_BITS | 2 << (2 * MOST_BITS) | 3 << (3 * MOST_BITS);
+const FOUR_ON: EdgePlaces = 4 * (1 | 1 << MOST_BITS | 1 << (2 * MOST_BITS) | 1 << (3 * MOST_BITS));
 
 impl GroupRoom {
     pub(super) const EMPTY: Self = Self {
         vertices: [0; MOST_VERTICES],
-        edges: [[0; 4]; IN_BOX],
+        edges: [0; IN_BOX],
     };
+
+    /// Edges that have no list of vertices: each has places of its own.
+    pub(super) fn listed(&mut self, edges: &[PackedEdge]) -> Group<'_> {
+        let places = self.vertices.as_chunks_mut().0.iter_mut().zip(edges);
+        for (number, ((vertices, edge), places)) in (0..).zip(places.zip(&mut self.edges)) {
+            *vertices = *edge;
+            *places = FIRST_FOUR + number * FOUR_ON;
+        }
+        let count = edges.len().min(IN_BOX);
+        Group {
+            vertices: &self.vertices,
+            edges: self.edges.get(..count).unwrap_or_default(),
+            bits: MOST_BITS,
+        }
+    }
+}
+
+impl Group<'_> {
+    pub(crate) fn edges(&self) -> &[EdgePlaces] {
+        self.edges
+    }
+
+    /// An edge by its vertices.
+    #[inline(always)]
+    pub(crate) fn edge(&self, edge: EdgePlaces) -> PackedEdge {
+        let (bits, mask) = (self.bits, (1 << self.bits) - 1);
+        let vertex = |places: u32| self.vertices[(places & mask) as usize % MOST_VERTICES];
+        // One after the other: of an iterator some compilers leave a loop.
+        [
+            vertex(edge),
+            vertex(edge >> bits),
+            vertex(edge >> (2 * bits)),
+            vertex(edge >> (3 * bits)),
+        ]
+    }
 }
 
 impl<'e> TightGroups<'e> {
@@ -121,7 +173,7 @@ impl TightGroup<'_> {
     }
 
     /// The edges, written into `room`.
-    pub(super) fn unpacked<'r>(&self, room: &'r mut GroupRoom) -> &'r [PackedEdge] {
+    pub(super) fn unpacked<'r>(&self, room: &'r mut GroupRoom) -> Group<'r> {
         let GroupRoom { vertices, edges } = room;
         self.read_vertices(vertices);
         let (bits, _) = self.widths();
@@ -133,13 +185,14 @@ impl TightGroup<'_> {
                 break;
             };
             let second = u32::from_le_bytes(last) >> (32 - 4 * bits);
-            *pair = [
-                edge(vertices, u32::from_le_bytes(first), bits),
-                edge(vertices, second, bits),
-            ];
+            *pair = [u32::from_le_bytes(first), second];
             rest = rest.get(bits..).unwrap_or_default();
         }
-        edges.get(..self.edges).unwrap_or_default()
+        Group {
+            vertices,
+            edges: edges.get(..self.edges).unwrap_or_default(),
+            bits,
+        }
     }
 
     /// Whether it has no more bytes than it should, vertices of a surface of so many, and edges of these.
@@ -173,17 +226,4 @@ impl TightGroup<'_> {
         }
         (highest as usize) < self.vertices
     }
-}
-
-/// The edge whose vertices have these places in a list, four numbers of so many bits. Inlined: a call would hand all of it over in memory.
-#[inline(always)]
-fn edge(vertices: &[u16; MOST_VERTICES], places: u32, bits: usize) -> PackedEdge {
-    let mask = ((1 << bits) - 1) % MOST_VERTICES as u32;
-    // One after the other: of an iterator some compilers leave a loop.
-    [
-        vertices[(places & mask) as usize],
-        vertices[(places >> bits & mask) as usize],
-        vertices[(places >> (2 * bits) & mask) as usize],
-        vertices[(places >> (3 * bits) & mask) as usize],
-    ]
 }

@@ -77,7 +77,9 @@ mod tests {
             boxes.push(*own);
             true
         };
-        edges.for_each_group(keep, |edges| all.extend(edges));
+        edges.for_each_group(keep, |group| {
+            all.extend(group.edges().iter().map(|&edge| group.edge(edge)))
+        });
         (boxes, all)
     }
 
