@@ -1,14 +1,15 @@
 //! A component followed by a caller that gives frames one by one, when they are asked for.
 
+mod beside;
 mod task;
 
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use alloc::vec;
 use alloc::vec::Vec;
-use core::mem::{replace, take};
 use core::ops::Range;
 
+use beside::Beside;
 use task::{Span, Task, Walk};
 
 use super::cell::{Anchor, Cell};
@@ -20,7 +21,6 @@ use super::good_frames::{frames_to_ask, good_poses};
 use super::known_femur::KnownFemur;
 use super::search_order::RunsToSearch;
 use super::second_look::SecondLook;
-use super::set_aside::{set_aside, take_better};
 use super::settling::{Settling, SettlingStep};
 use super::side_samples::SideSample;
 use super::sides::Rival;
@@ -42,16 +42,6 @@ enum Phase {
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
-}
-
-/// What is known where a component is looked for beside the other one of its joint.
-#[derive(Clone, Debug, Default)]
-struct Beside {
-    /// Where the other one is good.
-    other: Vec<Option<Pose>>,
-    /// Where this one is, and all of its film as it was before.
-    good: Vec<Option<FramePose>>,
-    before: Vec<Cell>,
 }
 
 /// Follows one component over some frames of a film. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at
@@ -252,13 +242,9 @@ impl Following {
         (other, other_depths_mm): (Vec<Option<Pose>>, &[Option<f64>]),
         femur: Option<KnownFemur>,
     ) {
-        if self.phase == Phase::Over && self.tasks.is_empty() {
+        if self.searches && self.phase == Phase::Over && self.tasks.is_empty() {
             self.femur = femur;
-            self.beside = Beside {
-                other,
-                good: self.good(other_depths_mm),
-                before: self.cells.clone(),
-            };
+            self.beside = Beside::new(&self.cells, self.good(other_depths_mm), other);
             self.runs = RunsToSearch::default();
             self.phase = Phase::Beside;
         }
@@ -285,7 +271,9 @@ impl Following {
         for task in self.tasks.drain(..) {
             task.write(&mut self.cells);
         }
-        self.take_better();
+        if self.phase == Phase::Beside {
+            self.beside.end(&mut self.cells);
+        }
         self.phase = Phase::Over;
     }
 
@@ -348,10 +336,17 @@ impl Following {
                     None => self.phase = Phase::Over,
                 }
             }
-            Phase::Beside => match self.next_beside() {
-                Some(search) => self.tasks.push_back(search),
-                None => self.end_beside(),
-            },
+            Phase::Beside => {
+                let next = self.beside.next(&mut self.cells, &self.runs, &self.range);
+                match next {
+                    Some((frame, run, pose)) => self.tasks.push_back(Task::Search {
+                        frame,
+                        run,
+                        beside: Some(pose),
+                    }),
+                    None => self.end_beside(),
+                }
+            }
             Phase::Over | Phase::Compare => return None,
         }
         Some(())
@@ -461,38 +456,13 @@ impl Following {
         })
     }
 
-    /// The next frame in which it was not found or lies on other edges, and the other component is good.
-    fn next_beside(&mut self) -> Option<Task> {
-        if !self.searches {
-            return None;
-        }
-        self.cells = set_aside(&self.cells, &self.beside.good);
-        let next = self
-            .runs
-            .next_beside(&self.cells, &self.beside.other, &self.range);
-        let (frame, run) = next?;
-        let beside = self.beside.other[frame];
-        Some(Task::Search { frame, run, beside })
-    }
-
-    /// What was found is brought to its right pose with the rest of the film.
+    /// What was found beside the other component is brought to its right pose with the rest of the film.
     fn end_beside(&mut self) {
-        let is_better = self.take_better();
         self.phase = Phase::Over;
-        if is_better {
+        if self.beside.end(&mut self.cells) {
             self.settling = Settling::new(self.middle, self.range.clone());
             self.phase = Phase::Settle;
         }
-    }
-
-    /// What was found beside the other component, in those frames in which it is better than what was there before.
-    fn take_better(&mut self) -> bool {
-        if self.phase != Phase::Beside {
-            return false;
-        }
-        let before = take(&mut self.beside.before);
-        let anew = replace(&mut self.cells, before);
-        take_better(&mut self.cells, &anew)
     }
 
     /// From a frame to both ends of a run of frames.

@@ -87,15 +87,7 @@ pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
 /// For files that are missing, unreadable or do not belong together.
 pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let study = Study::read(&request.study)?;
-    for name in request.components() {
-        let names = study.components.iter().map(|one| one.name.as_str());
-        let known: Vec<&str> = names.collect();
-        let others = known.join(", ");
-        ensure!(
-            known.contains(&name),
-            "the study has no component {name}: it has {others}"
-        );
-    }
+    check_components(request, &study)?;
     let frames = study.frames_folder()?;
     study.check_files(Some(frames))?;
     if study.is_knee() && study.side.is_none() {
@@ -145,6 +137,20 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         (films, margins) = followed(&run, &parts, &anchors)?;
     }
     finish(&run, &parts, &films, &margins)
+}
+
+/// Whether the study has the components that are asked for.
+fn check_components(request: &Request, study: &Study) -> Result<()> {
+    for name in request.components() {
+        let names = study.components.iter().map(|one| one.name.as_str());
+        let known: Vec<&str> = names.collect();
+        let others = known.join(", ");
+        ensure!(
+            known.contains(&name),
+            "the study has no component {name}: it has {others}"
+        );
+    }
+    Ok(())
 }
 
 /// Tells what all steps of a run depend on from all else, hexadecimal.
