@@ -41,7 +41,6 @@ struct Line {
 #[derive(Deserialize)]
 struct Target {
     name: String,
-    kind: Vec<String>,
 }
 
 /// All programs of tests in files of their own, compiled where they are not.
@@ -65,10 +64,6 @@ fn told_of(lines: &str) -> Result<Vec<Program>> {
         else {
             continue;
         };
-        // Programs that tests start are told of as well.
-        if target.kind != ["test"] {
-            continue;
-        }
         programs.push(Program {
             name: target.name,
             file,
@@ -121,8 +116,6 @@ impl Program {
         let _ = fs::remove_file(&notes);
         let told = started
             .current_dir(&self.folder)
-            // As cargo does: ours is xtask's.
-            .env("CARGO_MANIFEST_DIR", &self.folder)
             .env("FLUOROPOSE_SKIPPED", &notes)
             .envs(checked_profile::surroundings())
             .stdin(Stdio::null())
@@ -152,9 +145,8 @@ mod tests {
 
     #[test]
     fn programs_are_found_among_what_cargo_tells() {
-        let said = r#"{"reason":"compiler-artifact","manifest_path":"/a/Cargo.toml","target":{"name":"a","kind":["lib"]},"executable":null}
-{"reason":"compiler-artifact","manifest_path":"/a/Cargo.toml","target":{"name":"a","kind":["bin"]},"executable":"/target/a"}
-{"reason":"compiler-artifact","manifest_path":"/a/Cargo.toml","target":{"name":"all","kind":["test"]},"executable":"/target/all-1"}
+        let said = r#"{"reason":"compiler-artifact","manifest_path":"/a/Cargo.toml","target":{"name":"a"},"executable":null}
+{"reason":"compiler-artifact","manifest_path":"/a/Cargo.toml","target":{"name":"all"},"executable":"/target/all-1"}
 {"reason":"build-finished","success":true}"#;
         let [program] = told_of(said).unwrap().try_into().ok().unwrap();
         let found = (program.name, program.file, program.folder);
