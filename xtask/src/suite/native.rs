@@ -72,17 +72,16 @@ pub(crate) fn run(report: &mut Report) {
 
 /// Tests inside the sources that they test.
 fn in_the_sources(report: &mut Report) {
-    // Asked for by its kind, even the extension's library would become a program, which it cannot be everywhere. It has no tests.
-    let of_sources = |more: &[&str]| -> Result<Command> {
-        let mut cargo = checked_profile::cargo("test", &["--exclude", python::PACKAGE])?;
-        cargo.args(["--no-fail-fast", "--lib", "--bins"]).args(more);
-        Ok(cargo)
-    };
     report.step("native: unit tests compiled, with lints", || {
-        quiet(&mut of_sources(&["--no-run"])?)
+        // Not `--all-targets`, which makes a program of the Python extension's tests: it has none.
+        quiet(&mut checked_profile::cargo("build", &["--tests"])?)
     });
     report.step("native: tests in the sources", || {
-        tests(&mut of_sources(&[])?, "sources")
+        // Asked for by its kind, even the extension's library would become a program, which it cannot be everywhere. It has no tests.
+        let without = ["--exclude", python::PACKAGE];
+        let mut cargo = checked_profile::cargo("test", &without)?;
+        cargo.args(["--no-fail-fast", "--lib", "--bins"]);
+        tests(&mut cargo, "sources")
     });
 }
 
