@@ -1,6 +1,5 @@
 //! The suites of the verb `test`.
 
-mod at_once;
 mod board_rows;
 pub(crate) mod boards;
 mod browser;
@@ -16,4 +15,3 @@ pub(crate) mod python;
 pub(crate) mod report;
 pub(crate) mod side_by_side;
 mod test_files;
-mod test_programs;
