@@ -10,7 +10,7 @@ use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
 use super::look::Looked;
 use super::meeting::{have_met, join_ways};
-use super::motion::{between, off_out_of_plane_deg};
+use super::motion::between;
 use super::sides::{ELSEWHERE_RATIO, MOST, ONE_DEG};
 use super::trail::{Usual, apart};
 use super::trust::TrustLimits;
@@ -24,11 +24,9 @@ use crate::pose::{Pose, geodesic_deg};
 const PART: f64 = 0.5;
 /// So much of what is usual for a jump is one, at least.
 const TIMES: f64 = PART * TrustLimits::USUAL.jump_times;
-/// Degrees, mm, and degrees out of the image plane.
-const LEAST: [f64; 3] = [
+const LEAST: [f64; 2] = [
     PART * TrustLimits::USUAL.jump_deg,
     PART * TrustLimits::USUAL.jump_mm,
-    PART * TrustLimits::USUAL.jump_deg,
 ];
 /// Votes for one way that decide, each a misfit so many times less ([`super::sides`]).
 const DECIDED: f64 = 2.0;
@@ -63,25 +61,26 @@ pub fn frames_to_cross_from(cells: &[Cell], middle: &Vector3) -> Vec<(usize, boo
         .collect()
 }
 
-/// Which frames lie off the way between those beside them: by all of their motion, or by what of it is out of the image plane, which what is usual of
-/// a limb that swings in it hides.
+/// Which frames lie off the way between those beside them.
 fn jumps(cells: &[Cell], middle: &Vector3) -> Vec<bool> {
     let pose = |frame: usize| Some(cells.get(frame)?.found()?.pose);
     let off = |frame: usize| {
-        let own = pose(frame)?;
         let (before, after) = (pose(frame.checked_sub(1)?)?, pose(frame + 1)?);
-        let [deg, mm] = apart(&between(&before, &after, 0.5, middle), &own, middle);
-        Some([deg, mm, off_out_of_plane_deg(&own, [&before, &after])])
+        Some(apart(
+            &between(&before, &after, 0.5, middle),
+            &pose(frame)?,
+            middle,
+        ))
     };
-    let all: Vec<Option<[f64; 3]>> = (0..cells.len()).map(off).collect();
-    let most = [0, 1, 2].map(|k: usize| {
+    let all: Vec<Option<[f64; 2]>> = (0..cells.len()).map(off).collect();
+    let most = [0, 1].map(|k: usize| {
         let mut sorted: Vec<f64> = all.iter().flatten().map(|off| off[k]).collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let usual = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
         LEAST[k].max(TIMES * usual)
     });
     let is_one =
-        |off: &Option<[f64; 3]>| off.is_some_and(|off| off.iter().zip(&most).any(|(a, b)| a > b));
+        |off: &Option<[f64; 2]>| off.is_some_and(|off| off[0] > most[0] || off[1] > most[1]);
     all.iter().map(is_one).collect()
 }
 
@@ -239,7 +238,6 @@ mod tests {
     use super::*;
     use crate::follow::fake::{looked, turned};
     use crate::follow::look::Missing;
-    use crate::math::{multiply, rotation_by};
     use core::ops::Range;
 
     const MIDDLE: Vector3 = [0.0; 3];
@@ -322,27 +320,6 @@ mod tests {
             let left = cells[6].found().map(|found| found.misfit_px);
             assert_eq!(left == Some(0.5), gone_over);
         }
-    }
-
-    #[test]
-    fn a_jump_out_of_the_image_plane_is_seen_in_a_limb_that_swings_in_it() {
-        let film = |jump_deg: f64| -> Vec<Cell> {
-            let one = |frame: usize| {
-                let off_deg = if frame < 10 { 0.0 } else { jump_deg };
-                let mut pose = turned(0.1 * frame as f64 + off_deg, 0.5);
-                let swing = libm::sin(1.3 * frame as f64) / 5.0;
-                pose.pose.rotation =
-                    multiply(&rotation_by(&[0.0, 0.0, swing]), &pose.pose.rotation);
-                Cell::on_the_way(looked(Ok(pose)))
-            };
-            (0..20).map(one).collect()
-        };
-        assert_eq!(frames_to_cross_from(&film(0.0), &MIDDLE), []);
-        let found = frames_to_cross_from(&film(2.0), &MIDDLE);
-        assert!(
-            found.contains(&(9, true)) && found.contains(&(10, false)),
-            "{found:?}"
-        );
     }
 
     #[test]
