@@ -198,6 +198,8 @@ async function begin(page) {
   await panel.waitForFrames(page, FRAMES);
   await choose(page, await demoFile('femur.jts'));
   await cell(page, 'Frame 2, femur: pose loaded').click();
+  // Until then that of the first frame is shown.
+  await page.getByRole('application', { name: /frame 2 of 3/ }).waitFor();
   const pose = await until(() => panel.shownPose(page), (shown) => shown !== null, 'the pose that was loaded');
   await page.keyboard.press('y');
   await note(page, NOTE, 'Note on frame 2, femur');
