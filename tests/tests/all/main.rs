@@ -6,6 +6,7 @@ mod biplane;
 mod calibration;
 mod embedded;
 mod flips;
+mod following;
 mod fuzz;
 mod golden;
 mod implant;
