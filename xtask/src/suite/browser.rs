@@ -57,10 +57,10 @@ pub(crate) fn run(report: &mut Report) {
     // screen frames most of the time.
     let lane = |name| Lane { name, gives_way: 0 };
     report.side_by_side(&[
-        (lane("firefox"), |report| {
+        (lane("firefox"), &|report| {
             report.step(FIREFOX, in_firefox);
         }),
-        (lane("chromium"), |report| {
+        (lane("chromium"), &|report| {
             report.step(CHROMIUM, in_chromium);
         }),
     ]);

@@ -13,6 +13,15 @@ use crate::workspace;
 /// The `release` profile as tests use it; the file says what is otherwise, and why. Every cargo of ours begins at the root, where it is found.
 pub(crate) const CHECKED: [&str; 3] = ["--release", "--config", ".cargo/checked.toml"];
 
+/// What the file puts into the surroundings of programs: cargo does it for those that it starts.
+pub(super) fn surroundings() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let file = include_str!("../../../.cargo/checked.toml");
+    let lines = file.lines().skip_while(|line| *line != "[env]").skip(1);
+    let lines = lines.take_while(|line| !line.starts_with('['));
+    let entries = lines.filter_map(|line| line.split_once(" = "));
+    entries.map(|(name, value)| (name, value.trim_matches('"')))
+}
+
 /// Cargo on the whole workspace, compiled by the linter: what one command has built the next finds.
 ///
 /// # Errors
@@ -44,4 +53,15 @@ pub(crate) fn laboratory() -> Result<PathBuf> {
     let program = workspace::target_dir().join(name);
     *built = Some(program.clone());
     Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_of_tests_have_the_stack_that_the_file_gives_them() {
+        let found: Vec<_> = surroundings().collect();
+        assert_eq!(found, [("RUST_MIN_STACK", "8388608")]);
+    }
 }

@@ -1,5 +1,6 @@
 //! The suites of the verb `test`.
 
+mod at_once;
 mod board_rows;
 pub(crate) mod boards;
 mod browser;
@@ -15,3 +16,4 @@ pub(crate) mod python;
 pub(crate) mod report;
 pub(crate) mod side_by_side;
 mod test_files;
+mod test_programs;

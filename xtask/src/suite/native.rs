@@ -9,6 +9,7 @@ use super::checked_profile;
 use super::counts;
 use super::python;
 use super::report::{Report, Said};
+use super::test_programs;
 use crate::output::{self, Lane, say};
 use crate::setup::command;
 use crate::setup::components;
@@ -29,12 +30,24 @@ pub(crate) fn run(report: &mut Report) {
         components::ensure("fmt")?;
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
     });
+    let mut programs = Vec::new();
     report.step("native: compiled, with lints", || {
         // First what tests in a browser wait for.
         checked_profile::laboratory()?;
-        // Not `--all-targets`, which makes a program of the Python extension's tests: it has none.
-        let everything = ["--lib", "--bins", "--tests", "--benches", "--examples"];
-        quiet(&mut checked_profile::cargo("build", &everything)?)
+        // Not `--benches`, to which tests in the sources belong: compiling those takes a third of the time, and other tests run meanwhile.
+        let all_else = [
+            "--lib",
+            "--bins",
+            "--examples",
+            "--bench",
+            "*",
+            "--test",
+            "*",
+        ];
+        command::run(&mut checked_profile::cargo("build", &all_else)?)?;
+        // Now, as nobody else holds cargo's lock.
+        programs = test_programs::built()?;
+        Ok(Said::default())
     });
     report.step("native: layers and cycles", || {
         // It was built with everything else.
@@ -42,44 +55,39 @@ pub(crate) fn run(report: &mut Report) {
         let program = workspace::target_dir().join(name);
         quiet(Command::new(program).arg("--root").arg(workspace::root()))
     });
-    // Cargo runs one test program after the other, and many have one long test: beside them goes all that needs no more than the build.
+    // While tests in the sources are compiled, for which cargo locks what is built, the others need no cargo.
     let gives_way = output::lane().map_or(0, |lane| lane.gives_way);
-    let lane = |name| Lane { name, gives_way };
+    let lane = |name, gives_way| Lane { name, gives_way };
     report.side_by_side(&[
-        (lane("sources"), in_the_sources),
-        (lane("files"), in_files_of_their_own),
-        (lane("beside"), beside_the_tests),
+        (lane("sources", gives_way), &in_the_sources),
+        // The last to be waited for compiles, and then runs, tests in the sources; and those in browsers have clocks.
+        (lane("files", gives_way + 5), &|report| {
+            report.step("native: tests in files of their own", || {
+                test_programs::run(&programs)
+            });
+        }),
+        (lane("beside", gives_way), &beside_the_tests),
     ]);
 }
 
 /// Tests inside the sources that they test.
 fn in_the_sources(report: &mut Report) {
-    report.step("native: tests in the sources", || {
-        // Asked for by its kind, even the extension's library would become a program, which it cannot be everywhere. It has no tests.
-        let without = ["--exclude", python::PACKAGE];
-        let mut cargo = checked_profile::cargo("test", &without)?;
-        cargo.args(["--no-fail-fast", "--lib", "--bins"]);
-        tests(&mut cargo, "sources")
+    // Asked for by its kind, even the extension's library would become a program, which it cannot be everywhere. It has no tests.
+    let of_sources = |more: &[&str]| -> Result<Command> {
+        let mut cargo = checked_profile::cargo("test", &["--exclude", python::PACKAGE])?;
+        cargo.args(["--no-fail-fast", "--lib", "--bins"]).args(more);
+        Ok(cargo)
+    };
+    report.step("native: unit tests compiled, with lints", || {
+        quiet(&mut of_sources(&["--no-run"])?)
     });
-}
-
-/// Tests in folders of their own: most are long.
-fn in_files_of_their_own(report: &mut Report) {
-    report.step("native: tests in files of their own", || {
-        let which = ["--no-fail-fast", "--test", "*"];
-        tests(&mut checked_profile::cargo("test", &which)?, "files")
+    report.step("native: tests in the sources", || {
+        tests(&mut of_sources(&[])?, "sources")
     });
 }
 
 /// Steps that read what is built, and change nothing of it.
 fn beside_the_tests(report: &mut Report) {
-    report.step("native: examples in the documentation", || {
-        let which = ["--no-fail-fast", "--doc"];
-        tests(
-            &mut checked_profile::cargo("test", &which)?,
-            "documentation",
-        )
-    });
     python::quick(report);
     report.step("native: examples of the core", || {
         EXAMPLES.into_iter().try_for_each(|name| {
@@ -88,6 +96,14 @@ fn beside_the_tests(report: &mut Report) {
             command::run(&mut Command::new(example))
         })?;
         Ok(Said::default())
+    });
+    // These wait for cargo's lock.
+    report.step("native: examples in the documentation", || {
+        let which = ["--no-fail-fast", "--doc"];
+        tests(
+            &mut checked_profile::cargo("test", &which)?,
+            "documentation",
+        )
     });
     report.step("native: pages of the crates", pages_of_the_crates);
 }

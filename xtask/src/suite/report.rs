@@ -70,7 +70,7 @@ struct Line {
 }
 
 /// Steps one after another, and the lane that they run in.
-pub(crate) type Steps = (Lane, fn(&mut Report));
+pub(crate) type Steps<'a> = (Lane, &'a (dyn Fn(&mut Report) + Sync));
 
 /// The steps so far.
 pub(crate) struct Report {
@@ -129,7 +129,7 @@ impl Report {
     /// Does rows of steps beside each other, each in its lane, and records them in the order of the rows.
     pub(crate) fn side_by_side(&mut self, rows: &[Steps]) {
         let rows = thread::scope(|scope| {
-            let begin = |&(lane, steps): &Steps| {
+            let begun = rows.iter().map(|&(lane, steps)| {
                 scope.spawn(move || {
                     lane.work(|| {
                         let mut report = Self::new();
@@ -137,8 +137,8 @@ impl Report {
                         report
                     })
                 })
-            };
-            let begun: Vec<_> = rows.iter().map(begin).collect();
+            });
+            let begun: Vec<_> = begun.collect();
             let rows = begun.into_iter().map(thread::ScopedJoinHandle::join);
             rows.collect::<Vec<_>>()
         });

@@ -37,11 +37,11 @@ impl Chosen {
 pub(crate) fn run(chosen: Chosen) -> Report {
     let lane = |name, gives_way| Lane { name, gives_way };
     let suites: [(bool, Steps); 3] = [
-        (chosen.native, (lane("native", 10), native::run)),
+        (chosen.native, (lane("native", 10), &native::run)),
         // It is done long before the native suite, which nothing is to hold up.
-        (chosen.firmware, (lane("firmware", 15), firmware::run)),
+        (chosen.firmware, (lane("firmware", 15), &firmware::run)),
         // Its tests have clocks.
-        (chosen.browser, (lane("browser", 0), browser::run)),
+        (chosen.browser, (lane("browser", 0), &browser::run)),
     ];
     let suites = suites.into_iter().filter(|(chosen, _)| *chosen);
     let suites: Vec<Steps> = suites.map(|(_, suite)| suite).collect();

@@ -1,21 +1,20 @@
 //! Files of tests in a browser, each run by a program of its own, some beside each other.
 
-use std::collections::VecDeque;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 use anyhow::{Context, Result};
 
+use super::at_once;
 use super::counts::{self, Counts};
 use super::report::Said;
-use crate::output::{self, announce, say};
+use crate::output::{announce, say};
 use crate::setup::failed::Failed;
 use crate::setup::telling;
 
-/// The longest, which begin first: what begins late and takes long is waited for alone.
+/// The longest, which begin first.
 const LONG: [&str; 15] = [
     "shuttered",
     "following",
@@ -52,11 +51,12 @@ struct Ended {
 pub(super) fn run(
     folder: &Path,
     files: Vec<String>,
-    at_once: usize,
+    so_many: usize,
     prepare: &(dyn Fn() -> Command + Sync),
 ) -> Result<Said> {
     let one = |file: &String| run_file(folder, file, prepare());
-    let (passed, failed): (Vec<_>, Vec<_>) = beside_each_other(long_first(files), at_once, one)?
+    let files = at_once::long_first(files, &LONG, |file| name_of(file));
+    let (passed, failed): (Vec<_>, Vec<_>) = at_once::each(files, so_many, one)?
         .into_iter()
         .partition(|ended| ended.success);
     let mut counts = sum(&passed)?;
@@ -100,49 +100,9 @@ pub(super) fn all_in(folder: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-fn long_first(mut files: Vec<String>) -> VecDeque<String> {
-    let place = |file: &String| {
-        let name = file.trim_end_matches(".test.mjs");
-        LONG.iter()
-            .position(|long| *long == name)
-            .unwrap_or(LONG.len())
-    };
-    files.sort_by_key(place);
-    files.into()
-}
-
-/// Does something with each file, so many at a time, in the lane of this thread.
-fn beside_each_other(
-    files: VecDeque<String>,
-    at_once: usize,
-    one: impl Fn(&String) -> Result<Ended> + Sync,
-) -> Result<Vec<Ended>> {
-    let lane = output::lane();
-    let waiting = Mutex::new(files);
-    let next = || {
-        waiting
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .pop_front()
-    };
-    let work =
-        || -> Result<Vec<Ended>> { std::iter::from_fn(next).map(|file| one(&file)).collect() };
-    let in_lane = || lane.map_or_else(work, |lane| lane.work(work));
-    let ended = thread::scope(|scope| {
-        let workers: Vec<_> = (0..at_once).map(|_| scope.spawn(in_lane)).collect();
-        workers
-            .into_iter()
-            .map(thread::ScopedJoinHandle::join)
-            .collect::<Vec<_>>()
-    });
-    let mut all = Vec::new();
-    for of_one in ended {
-        match of_one {
-            Ok(ended) => all.extend(ended?),
-            Err(panic) => std::panic::resume_unwind(panic),
-        }
-    }
-    Ok(all)
+/// The name of a file's tests, as the list of the longest has it.
+fn name_of(file: &str) -> &str {
+    file.trim_end_matches(".test.mjs")
 }
 
 /// Runs the tests of a file, and shows what they said when they are done.
@@ -287,12 +247,5 @@ mod tests {
         let many = ["broken1", "broken2", "broken3", "chance"];
         let error = tried("many", &many).unwrap_err();
         assert_eq!(error.to_string(), "4 of the tests in the browser failed");
-    }
-
-    #[test]
-    fn the_longest_begin_first() {
-        let files = ["tracing.test.mjs", "axe.test.mjs", "following.test.mjs"].map(str::to_owned);
-        let order = ["following.test.mjs", "axe.test.mjs", "tracing.test.mjs"];
-        assert_eq!(long_first(files.into()), order);
     }
 }
