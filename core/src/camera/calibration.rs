@@ -37,6 +37,18 @@ pub enum CalibrationError {
         "the camera matrix is not of the form fx,0,cx / 0,fy,cy / 0,0,1; skewed pixels are not supported"
     )]
     Matrix,
+    /// A focal length of the camera matrix is negative.
+    #[error(
+        "the camera matrix has a negative focal length, {focal}: it is of a camera whose {axis} runs the other way; write it without the minus, and turn the signs of the {row} row of the rotation and the {row} number of the translation, where the file has them"
+    )]
+    Negative {
+        /// The focal length, pixels.
+        focal: f64,
+        /// The camera's axis that it belongs to.
+        axis: &'static str,
+        /// That axis' place in rotation and translation.
+        row: &'static str,
+    },
     /// The rotation is not one.
     #[error("the calibration's rotation is not a rotation matrix")]
     Rotation,
@@ -240,6 +252,11 @@ fn parse_matrix<'a>(
     if k[0][1] != 0.0 || k[1][0] != 0.0 || k[2] != [0.0, 0.0, 1.0] {
         return Err(CalibrationError::Matrix);
     }
+    for (focal, axis, row) in [(k[0][0], "x", "first"), (k[1][1], "y", "second")] {
+        if focal < 0.0 {
+            return Err(CalibrationError::Negative { focal, axis, row });
+        }
+    }
     let mut laboratory = Pose::IDENTITY;
     if heading(&mut lines, "rotation").is_ok() {
         laboratory.rotation = next_matrix(&mut lines, "rotation")?;
@@ -429,6 +446,11 @@ mod tests {
             parts.contains("is 3.1; it must be at least a tenth"),
             "{parts}"
         );
+        for (focal, words) in [("3200", "x runs the other way"), ("3180", "y runs")] {
+            let error = parse(&MATRIX.replace(focal, &std::format!("-{focal}"))).expect_err(focal);
+            assert!(error.contains(words), "{error}");
+            assert!(error.contains(&std::format!("-{focal}")), "{error}");
+        }
         assert!(parse(&MATRIX.replace("0,-1,0", "0,1,0")).is_err());
     }
 

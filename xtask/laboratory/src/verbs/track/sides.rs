@@ -119,7 +119,11 @@ fn look_again(
         })?;
         Ok((frame, better))
     };
-    let found: Vec<_> = looks.par_iter().map(one).collect::<Result<_>>()?;
+    let found: Vec<_> = looks
+        .par_iter()
+        .with_max_len(1)
+        .map(one)
+        .collect::<Result<_>>()?;
     for (frame, better) in found {
         if let Some(better) = better {
             run.debug(|| {
@@ -177,6 +181,10 @@ fn seen(
             fixed: cells[frame].fixed,
         }))
     };
-    let samples: Vec<Option<SideSample>> = frames.par_iter().map(sample).collect::<Result<_>>()?;
+    let samples: Vec<Option<SideSample>> = frames
+        .par_iter()
+        .with_max_len(1)
+        .map(sample)
+        .collect::<Result<_>>()?;
     Ok(samples.into_iter().flatten().collect())
 }
