@@ -60,17 +60,7 @@ pub(crate) fn estimate<'py>(
         nominal,
         distance_mm: distance_mm.unwrap_or_else(|| calibration.read.expected_distance()),
     };
-    let frames = frames.map(|frames| {
-        frames
-            .iter()
-            .map(GreyArray::frame)
-            .collect::<Result<Vec<_>>>()
-    });
-    let given = InMemory {
-        masks: masks_of(py, &masks)?,
-        unknown: unknown.map(|unknown| masks_of(py, &unknown)).transpose()?,
-        frames: frames.transpose().map_err(python_error)?,
-    };
+    let given = in_memory(py, &masks, unknown.as_ref(), frames)?;
     let work = Work {
         model: model.model.clone(),
         method: method_of(method)?,
@@ -99,6 +89,33 @@ pub(crate) fn estimate<'py>(
         Ok((work.run(&opened, &source)?, dropped))
     });
     let (posed, dropped) = found?;
+    answers_of(py, &posed, dropped)
+}
+
+/// What Python has of a film.
+fn in_memory(
+    py: Python<'_>,
+    masks: &PyReadonlyArray3<'_, u8>,
+    unknown: Option<&PyReadonlyArray3<'_, u8>>,
+    frames: Option<Vec<GreyArray<'_>>>,
+) -> PyResult<InMemory> {
+    let frames = frames.map(|frames| {
+        let each = frames.iter().map(GreyArray::frame);
+        each.collect::<Result<Vec<_>>>()
+    });
+    Ok(InMemory {
+        masks: masks_of(py, masks)?,
+        unknown: unknown.map(|unknown| masks_of(py, unknown)).transpose()?,
+        frames: frames.transpose().map_err(python_error)?,
+    })
+}
+
+/// A dictionary for each mask, with how many specks were `dropped` of it.
+fn answers_of<'py>(
+    py: Python<'py>,
+    posed: &Posed,
+    dropped: Vec<u64>,
+) -> PyResult<Bound<'py, PyList>> {
     let rows = posed.report();
     let answers = PyList::empty(py);
     for (number, (row, dropped)) in rows.iter().zip(dropped).enumerate() {

@@ -147,21 +147,12 @@ pub fn estimate_with(
         return None;
     }
     let mut covariance = sums.covariance()?;
-    let least = |k: usize| match (k, display) {
-        (CURVATURE, DisplayKnowledge::Untold) => UNTOLD_DEVIATION,
-        (CURVATURE, _) if fit.sharpened => {
-            let [least, part] = SHARPENED_DEVIATION;
-            least + part * at[CURVATURE].abs()
-        }
-        (AMOUNT | RADIUS, _) if !fit.sharpened => 0.0,
-        _ => LEAST_DEVIATION[k.min(2)],
-    };
+    let least = |k: usize| least_deviation(k, (display, fit.sharpened), at[CURVATURE]);
     (0..UNKNOWNS).for_each(|k| covariance[k][k] += least(k) * least(k));
+    let unit = |k: usize| if k == CURVATURE { contrast } else { 1.0 };
     for (k, row) in covariance.iter_mut().enumerate() {
         for (other, value) in row.iter_mut().enumerate() {
-            *value += half[k] * half[other];
-            *value /= if k == CURVATURE { contrast } else { 1.0 };
-            *value /= if other == CURVATURE { contrast } else { 1.0 };
+            *value = (*value + half[k] * half[other]) / unit(k) / unit(other);
         }
     }
     Some(FilmEstimate {
@@ -181,6 +172,23 @@ pub fn estimate_with(
         profiles: sums.count,
         residual: sqrt(sums.squares / (sums.count * super::profile::READINGS) as f64),
     })
+}
+
+/// What an unknown is uncertain by in any case: what is told of the display, whether edges were enhanced, and a curvature decide.
+fn least_deviation(
+    k: usize,
+    (display, sharpened): (DisplayKnowledge, bool),
+    curvature: f64,
+) -> f64 {
+    match (k, display) {
+        (CURVATURE, DisplayKnowledge::Untold) => UNTOLD_DEVIATION,
+        (CURVATURE, _) if sharpened => {
+            let [least, part] = SHARPENED_DEVIATION;
+            least + part * curvature.abs()
+        }
+        (AMOUNT | RADIUS, _) if !sharpened => 0.0,
+        _ => LEAST_DEVIATION[k.min(2)],
+    }
 }
 
 /// The mean difference between grey values beside metal and behind it; `None` where metal is not darker.

@@ -32,23 +32,7 @@ export function ImportSheet({ state }: { state: State }) {
       }}
     >
       <Subjects proposal={proposal} change={change} />
-      <div class="import-options">
-        <fieldset class="choices">
-          <legend>{exchange.matching}</legend>
-          {MATCHES.map((match) => (
-            <label key={match} class="check">
-              <input type="radio" name="match" checked={proposal.match === match} onChange={() => change(() => ({ match }))} />
-              {exchange.match[match]}
-            </label>
-          ))}
-        </fieldset>
-        {proposal.items.some(({ exactOutline }) => exactOutline) && (
-          <label class="check">
-            <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
-            {exchange.exact}
-          </label>
-        )}
-      </div>
+      <Options proposal={proposal} change={change} />
       <Assignments rows={rows} proposal={proposal} />
       {proposal.remarks.length > 0 && (
         <ul class="remarks" aria-label={exchange.remarks}>
@@ -90,6 +74,30 @@ function apply(store: Store, proposal: Proposal, going: number): void {
   store.perform(importProposal(store.doc, proposal));
   close(store);
   store.say('info', texts.exchange.applied(going));
+}
+
+/** How outlines are put to frames, and whether they are taken point for point. */
+function Options({ proposal, change }: { proposal: Proposal; change: Change }) {
+  const { exchange } = texts;
+  return (
+    <div class="import-options">
+      <fieldset class="choices">
+        <legend>{exchange.matching}</legend>
+        {MATCHES.map((match) => (
+          <label key={match} class="check">
+            <input type="radio" name="match" checked={proposal.match === match} onChange={() => change(() => ({ match }))} />
+            {exchange.match[match]}
+          </label>
+        ))}
+      </fieldset>
+      {proposal.items.some(({ exactOutline }) => exactOutline) && (
+        <label class="check">
+          <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
+          {exchange.exact}
+        </label>
+      )}
+    </div>
+  );
 }
 
 /** Which component each name in the files means. */
