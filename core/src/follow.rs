@@ -81,7 +81,7 @@ pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 #[cfg(feature = "alloc")]
 pub use film_reading::FilmReading;
 #[cfg(feature = "alloc")]
-pub use following::{Following, WholeFrames};
+pub use following::Following;
 pub use frame_pose::{
     FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
 };

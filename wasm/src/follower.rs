@@ -4,7 +4,7 @@ mod film_reader;
 mod seen;
 
 use fluoropose::film::FilmModel;
-use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, WholeFrames};
+use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur};
 use fluoropose::pose::{EulerPose, Pose};
 use seen::Seen;
 use wasm_bindgen::prelude::*;
@@ -76,18 +76,13 @@ impl FilmFollower {
         Ok(())
     }
 
-    /// From now on frames are also asked for that are to be searched, where the component was lost: as a whole before sides are chosen, or, of a
-    /// component that is looked for beside the other one first, after that.
+    /// From now on frames are also asked for that are to be searched as a whole, where the component was lost.
     #[wasm_bindgen(js_name = searchWhereLost)]
-    pub fn search_where_lost(&mut self, beside_first: bool) {
-        let whole_frames = match beside_first {
-            true => WholeFrames::Last,
-            false => WholeFrames::First,
-        };
-        self.following.search_where_lost(whole_frames);
+    pub fn search_where_lost(&mut self) {
+        self.following.search_where_lost();
     }
 
-    /// Whether the frame that is wanted is to be searched: `searched` takes the answer, not `take`.
+    /// Whether the frame that is wanted is to be searched as a whole: `searched` takes the answer, not `take`.
     #[wasm_bindgen(getter, js_name = isSearch)]
     pub fn is_search(&self) -> bool {
         self.following.is_search()

@@ -39,23 +39,9 @@ enum Phase {
     Settle,
     /// It is looked for beside the other component, where it is lost after all.
     Beside,
-    /// Then in whole frames in which the other one is not good either.
-    Apart,
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
-}
-
-/// When frames in which a component is lost are searched as a whole.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum WholeFrames {
-    /// Never: nobody is there to search them.
-    #[default]
-    Never,
-    /// Before it is brought to its right pose.
-    First,
-    /// After it was looked for beside the other component of its joint ([`Following::look_beside`]), which is sooner and surer: where that is not good.
-    Last,
 }
 
 /// Follows one component over some frames of a film. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at
@@ -70,8 +56,8 @@ pub struct Following {
     anchors: Vec<Anchor>,
     tasks: VecDeque<Task>,
     phase: Phase,
-    /// When the caller looks for the component in whole frames where nothing leads to it.
-    whole_frames: WholeFrames,
+    /// The caller looks for the component in whole frames where nothing leads to it.
+    searches: bool,
     runs: RunsToSearch,
     /// For who looks beside the other component.
     beside: Beside,
@@ -100,7 +86,7 @@ impl Following {
             anchors: Vec::new(),
             tasks: VecDeque::new(),
             phase: Phase::Way,
-            whole_frames: WholeFrames::Never,
+            searches: false,
             runs: RunsToSearch::default(),
             beside: Beside::default(),
             waiting: None,
@@ -119,13 +105,13 @@ impl Following {
         }
     }
 
-    /// From now on [`Self::wanted`] also asks for frames that are to be searched ([`Self::is_search`]), where the component was not found in a run of
-    /// them.
-    pub fn search_where_lost(&mut self, whole_frames: WholeFrames) {
-        self.whole_frames = whole_frames;
+    /// From now on [`Self::wanted`] also asks for frames that are to be searched as a whole ([`Self::is_search`]), where the
+    /// component was not found in a run of them.
+    pub fn search_where_lost(&mut self) {
+        self.searches = true;
     }
 
-    /// Whether the frame that [`Self::wanted`] asks for is to be searched: [`Self::searched`] takes the answer.
+    /// Whether the frame that [`Self::wanted`] asks for is to be searched as a whole: [`Self::searched`] takes the answer.
     #[must_use]
     pub fn is_search(&self) -> bool {
         matches!(self.tasks.front(), Some(Task::Search { .. }))
@@ -148,7 +134,6 @@ impl Following {
         }
         if let Some(Task::Search { frame, run, .. }) = self.tasks.pop_front() {
             self.runs.searched(frame, &run, pose.is_some());
-            self.beside.any |= self.phase == Phase::Apart && pose.is_some();
             let found = pose.map(|pose| Task::Found { frame, pose, run });
             found
                 .into_iter()
@@ -257,8 +242,7 @@ impl Following {
         (other, other_depths_mm): (Vec<Option<Pose>>, &[Option<f64>]),
         femur: Option<KnownFemur>,
     ) {
-        let may_search = self.whole_frames != WholeFrames::Never;
-        if may_search && self.phase == Phase::Over && self.tasks.is_empty() {
+        if self.searches && self.phase == Phase::Over && self.tasks.is_empty() {
             self.femur = femur;
             self.beside = Beside::new(&self.cells, self.good(other_depths_mm), other);
             self.runs = RunsToSearch::default();
@@ -288,7 +272,7 @@ impl Following {
             task.write(&mut self.cells);
         }
         if self.phase == Phase::Beside {
-            self.beside.take_better(&mut self.cells);
+            self.beside.end(&mut self.cells);
         }
         self.phase = Phase::Over;
     }
@@ -337,14 +321,10 @@ impl Following {
                 self.begin_ways();
                 self.phase = Phase::Search;
             }
-            Phase::Search => {
-                let is_due = self.whole_frames == WholeFrames::First;
-                let next = self.runs.next(&self.cells, &self.range);
-                match next.filter(|_| is_due && !self.anchors.is_empty()) {
-                    Some(next) => self.search(next, None),
-                    None => self.phase = Phase::Settle,
-                }
-            }
+            Phase::Search => match self.to_search() {
+                Some(search) => self.tasks.push_back(search),
+                None => self.phase = Phase::Settle,
+            },
             Phase::Settle => {
                 let waiting = self.waiting.take();
                 match waiting.or_else(|| self.settling.next(&mut self.cells)) {
@@ -359,19 +339,11 @@ impl Following {
             Phase::Beside => {
                 let next = self.beside.next(&mut self.cells, &self.runs, &self.range);
                 match next {
-                    Some((frame, run, pose)) => self.search((frame, run), Some(pose)),
-                    None => {
-                        self.beside.take_better(&mut self.cells);
-                        self.runs = RunsToSearch::default();
-                        self.phase = Phase::Apart;
-                    }
-                }
-            }
-            Phase::Apart => {
-                let is_due = self.whole_frames == WholeFrames::Last;
-                let next = self.beside.next_apart(&self.cells, &self.runs, &self.range);
-                match next.filter(|_| is_due && !self.anchors.is_empty()) {
-                    Some(next) => self.search(next, None),
+                    Some((frame, run, pose)) => self.tasks.push_back(Task::Search {
+                        frame,
+                        run,
+                        beside: Some(pose),
+                    }),
                     None => self.end_beside(),
                 }
             }
@@ -472,14 +444,22 @@ impl Following {
         }
     }
 
-    fn search(&mut self, (frame, run): (usize, Range<usize>), beside: Option<Pose>) {
-        self.tasks.push_back(Task::Search { frame, run, beside });
+    /// The next frame in which it was not found, though it was in others.
+    fn to_search(&self) -> Option<Task> {
+        let may_search = self.searches && !self.anchors.is_empty();
+        let next = self.runs.next(&self.cells, &self.range);
+        let (frame, run) = next.filter(|_| may_search)?;
+        Some(Task::Search {
+            frame,
+            run,
+            beside: None,
+        })
     }
 
-    /// What was found since is brought to its right pose with the rest of the film.
+    /// What was found beside the other component is brought to its right pose with the rest of the film.
     fn end_beside(&mut self) {
         self.phase = Phase::Over;
-        if self.beside.any {
+        if self.beside.end(&mut self.cells) {
             self.settling = Settling::new(self.middle, self.range.clone());
             self.phase = Phase::Settle;
         }

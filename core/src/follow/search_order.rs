@@ -72,19 +72,6 @@ impl RunsToSearch {
         self.next_of_those(&is_missing, &clipped(range, cells))
     }
 
-    /// The same of the frames alone in which the `other` component of the joint is not known.
-    #[must_use]
-    pub fn next_apart<T>(
-        &self,
-        cells: &[Cell],
-        other: &[Option<T>],
-        range: &Range<usize>,
-    ) -> Option<(usize, Range<usize>)> {
-        let is_known = |frame: usize| other.get(frame).is_some_and(Option::is_some);
-        let is_missing = |frame: usize| cells[frame].found().is_none() && !is_known(frame);
-        self.next_of_those(&is_missing, &clipped(range, cells))
-    }
-
     fn next_of_those(
         &self,
         is_missing: &dyn Fn(usize) -> bool,
@@ -181,18 +168,6 @@ mod tests {
         assert_eq!(runs.next_beside(&cells, &other, &(0..20)), Some((9, 9..10)));
         assert_eq!(runs.next_beside(&cells, &known(&cells), &(0..40)), None);
         assert_eq!(runs.next_beside::<()>(&cells, &[], &(0..40)), None);
-        // Of what is missing itself: 5 to 8 and 33 to 38.
-        assert_eq!(
-            runs.next_apart(&cells, &other, &(0..40)),
-            Some((36, 33..39))
-        );
-        assert_eq!(runs.next_apart(&cells, &other, &(0..20)), Some((7, 5..9)));
-        let all = [Some(()); 40];
-        assert_eq!(runs.next_apart(&cells, &all, &(0..40)), None);
-        assert_eq!(
-            runs.next_apart::<()>(&cells, &[], &(0..40)),
-            runs.next(&cells, &(0..40))
-        );
     }
 
     /// Frames 5 to 9, 20 to 29 and 33 to 38 are missing.

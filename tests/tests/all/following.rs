@@ -2,8 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::follow::{
-    Conclusion, Following, KnownFemur, State, Subject, WholeFrames, Why, elsewhere, frame_pose_at,
-    mirrored_pose,
+    Conclusion, Following, KnownFemur, State, Subject, Why, elsewhere, frame_pose_at, mirrored_pose,
 };
 use fluoropose::image::frame::Frame;
 use fluoropose::math::{add, apply, multiply, rotation_by, subtract};
@@ -24,9 +23,8 @@ struct Given<'f> {
     part: &'f Triangles,
     frames: &'f [Vec<u8>],
     asked: Vec<usize>,
-    /// Frames that were searched, those of them that were as a whole, and what is found in those that are not empty.
+    /// Frames that were searched as a whole, and what is found in those that are not empty.
     searched: Vec<usize>,
-    whole: Vec<usize>,
     there: Option<Pose>,
 }
 
@@ -37,7 +35,6 @@ impl<'f> Given<'f> {
             frames,
             asked: Vec::new(),
             searched: Vec::new(),
-            whole: Vec::new(),
             there: None,
         }
     }
@@ -62,9 +59,6 @@ impl<'f> Given<'f> {
             };
             if following.is_search() {
                 self.searched.push(number);
-                if following.beside().is_none() {
-                    self.whole.push(number);
-                }
                 let is_empty = self.frames[number].iter().all(|&grey| grey == EMPTY);
                 following.searched(self.there.filter(|_| !is_empty));
                 continue;
@@ -255,7 +249,7 @@ fn what_was_lost_is_looked_for_in_whole_frames_and_followed_from_there() {
     let middle = surface(thigh.clone()).as_model().bounds().centre;
     let mut following = Following::new(middle, frames.len(), 0..frames.len());
     following.give(0, before, true);
-    following.search_where_lost(WholeFrames::First);
+    following.search_where_lost();
     let mut given = Given::new(&thigh, &frames);
     given.there = Some(after);
     given.go_on(&mut following);
@@ -273,42 +267,6 @@ fn what_was_lost_is_looked_for_in_whole_frames_and_followed_from_there() {
 }
 
 #[test]
-fn whole_frames_come_last_where_the_other_component_tells_more_and_only_where_it_does_not() {
-    let (thigh, [before, after], frames) = interrupted(2);
-    let middle = surface(thigh.clone()).as_model().bounds().centre;
-    let count = frames.len();
-    let searched = |is_known: &dyn Fn(usize) -> bool| {
-        let mut following = Following::new(middle, count, 0..count);
-        following.give(0, before, true);
-        following.search_where_lost(WholeFrames::Last);
-        let mut given = Given::new(&thigh, &frames);
-        given.go_on(&mut following);
-        following.choose_sides(None);
-        given.go_on(&mut following);
-        assert!(given.searched.is_empty());
-        let other = (0..count).map(|frame| is_known(frame).then_some(before));
-        following.look_beside((other.collect(), &[]), None);
-        given.there = Some(after);
-        given.go_on(&mut following);
-        let found = following.cells().iter().map(|cell| cell.found().is_some());
-        (given.whole, given.searched, found.collect::<Vec<bool>>())
-    };
-    let is_there = |frame: usize| !(2..12).contains(&frame);
-    let all: Vec<bool> = (0..count).map(is_there).collect();
-    let (whole, each, found) = searched(&|_| false);
-    assert_eq!((&whole[..], found), (&[11, 6, 17, 7][..], all.clone()));
-    assert_eq!(whole, each);
-    // Where the other one is good, the joint has the word; frame 14 leads to what is behind.
-    let (whole, each, found) = searched(&|frame| !(10..14).contains(&frame));
-    assert!(
-        whole.iter().all(|frame| (10..14).contains(frame)),
-        "{whole:?}"
-    );
-    assert!(each.len() > whole.len() && found == all, "{each:?}");
-    assert_eq!(searched(&|_| true).0, [0; 0]);
-}
-
-#[test]
 fn what_is_lost_after_all_is_looked_for_beside_the_other_component_and_settled_again() {
     let (thigh, [before, after], frames) = interrupted(2);
     let middle = surface(thigh.clone()).as_model().bounds().centre;
@@ -316,7 +274,7 @@ fn what_is_lost_after_all_is_looked_for_beside_the_other_component_and_settled_a
         let mut following = Following::new(middle, frames.len(), 0..frames.len());
         following.give(0, before, true);
         if searches {
-            following.search_where_lost(WholeFrames::First);
+            following.search_where_lost();
         }
         following.choose_sides(None);
         let mut given = Given::new(&thigh, &frames);

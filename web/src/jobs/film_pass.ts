@@ -128,7 +128,7 @@ export class FilmPass {
     const { mesh, camera } = subjectOf(this.#services, component);
     const { first, last, given } = span;
     const searches = await this.#first.open(component, worker);
-    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, besideFirst: component === 'tibia', film: filmNumbers(doc, component) };
+    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), this.#progress.followed);
     // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.
     if (!this.#signal.aborted) await this.#look(part, await worker.call('seeSides', null), this.#progress.another);

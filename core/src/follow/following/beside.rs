@@ -18,8 +18,6 @@ pub(super) struct Beside {
     /// Where this one is, and all of its film as it was before.
     good: Vec<Option<FramePose>>,
     before: Vec<Cell>,
-    /// Whether anything was found there, or after it, that is better.
-    pub(super) any: bool,
 }
 
 impl Beside {
@@ -33,7 +31,6 @@ impl Beside {
             other,
             good,
             before: cells.to_vec(),
-            any: false,
         }
     }
 
@@ -50,19 +47,9 @@ impl Beside {
         Some((frame, run, self.other[frame]?))
     }
 
-    /// Ends it: of what was found, what is better than what was there before.
-    pub(super) fn take_better(&mut self, cells: &mut Vec<Cell>) {
+    /// Ends it: of what was found, what is better than what was there before. Whether there is any.
+    pub(super) fn end(&mut self, cells: &mut Vec<Cell>) -> bool {
         let anew = replace(cells, take(&mut self.before));
-        self.any = take_better(cells, &anew);
-    }
-
-    /// The next frame in which neither this one was found nor the other one is good, with the run around it.
-    pub(super) fn next_apart(
-        &self,
-        cells: &[Cell],
-        runs: &RunsToSearch,
-        range: &Range<usize>,
-    ) -> Option<(usize, Range<usize>)> {
-        runs.next_apart(cells, &self.other, range)
+        take_better(cells, &anew)
     }
 }

@@ -35,7 +35,7 @@ serve<FollowProtocol>({
       const profiles = reader.take(image) as Float32Array<ArrayBuffer>;
       return { profiles, next: reader.wanted() ?? null };
     }),
-  begin: async ({ mesh, camera, first, last, given, film, searches, besideFirst, ...input }) => {
+  begin: async ({ mesh, camera, first, last, given, film, searches, ...input }) => {
     await ready;
     follower?.free();
     follower = null;
@@ -45,7 +45,7 @@ serve<FollowProtocol>({
     for (const { frame, pose, isSet } of given) begun.give(frame, Float64Array.from(poseArray(pose)), isSet);
     if (searches && searcher.isOpen) {
       searcher.knowFilm(Float64Array.from(film ?? []));
-      begun.searchWhereLost(besideFirst);
+      begun.searchWhereLost();
     }
     follower = begun;
     return begun.wanted() ?? null;

@@ -79,8 +79,6 @@ export interface FollowInput {
   readonly given: readonly { readonly frame: number; readonly pose: PoseNumbers; readonly isSet: boolean }[];
   /** Where it is lost it is looked for in whole frames, with what was opened for that. */
   readonly searches: boolean;
-  /** It is looked for beside the other component before that. */
-  readonly besideFirst: boolean;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
 }

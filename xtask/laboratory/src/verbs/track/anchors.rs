@@ -152,29 +152,21 @@ pub(super) fn fill_in_joint(
     }
 }
 
-/// Looks for a component in runs of frames in which it was not found and the `other` one of its joint is not known, and follows it from where it is.
-/// Whether it was anywhere.
-pub(super) fn fill(
-    run: &Run<'_>,
-    part: &Part<'_>,
-    other: &[Option<FramePose>],
-    cells: &mut [Cell],
-) -> Result<bool> {
+/// Looks for a component in runs of frames in which it was not found, and follows it from where it is.
+pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
     let Some(known) = cells.iter().find_map(Cell::found) else {
         // It was searched in vain.
-        return Ok(false);
+        return Ok(());
     };
-    let mut any = false;
     let depth = Some(part.depth_of(&known.pose));
     let mut runs = RunsToSearch::default();
-    while let Some((frame, gap)) = runs.next_apart(cells, other, &(0..cells.len())) {
+    while let Some((frame, gap)) = runs.next(cells, &(0..cells.len())) {
         let found = searched(run, part, frame, (depth, Places::All), None)?;
         runs.searched(frame, &gap, found.is_some());
-        any |= found.is_some();
         if let Some(found) = found {
             let anchor = Anchor::found(frame, found);
             follow(run, part, &[anchor], gap, cells)?;
         }
     }
-    Ok(any)
+    Ok(())
 }

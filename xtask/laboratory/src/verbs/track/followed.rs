@@ -10,10 +10,9 @@ use super::judged::{femur_of, good, is_tibia, other_of};
 use super::part::Part;
 use super::run::Run;
 use super::sides::{Margins, settle, up_to_a_choice};
-use crate::files::Role;
 
 /// All components, side by side as far as they need no other: a tibia waits for its femur where its sides are chosen. A component that is lost after
-/// all is looked for beside the other one of its joint; a tibia beside its femur, which is sooner and surer, before it is in whole frames.
+/// all is looked for beside the other one of its joint.
 pub(super) fn followed(
     run: &Run<'_>,
     parts: &[Part<'_>],
@@ -21,9 +20,6 @@ pub(super) fn followed(
 ) -> Result<(Vec<Vec<Cell>>, Vec<Margins>)> {
     let alone = |(part, anchors): (&Part<'_>, &Vec<Anchor>)| -> Result<(Vec<Cell>, Settling)> {
         let mut cells = of_part(run, part, anchors)?;
-        if !is_beside_first(part, parts) {
-            fill(run, part, &[], &mut cells)?;
-        }
         let mut settling = Settling::new(part.middle(), 0..cells.len());
         if up_to_a_choice(run, part, &mut settling, &mut cells)? && !is_tibia(part) {
             settle(run, part, None, &mut settling, &mut cells)?;
@@ -59,11 +55,7 @@ fn find_lost(
     let [own, known] = [number, other].map(|part| good(run, (part, parts), films, &margins));
     let mut anew = films[number].clone();
     fill_in_joint(run, (part, &own, &mut anew), (&parts[other], &known))?;
-    let mut any = take_better(&mut films[number], &anew);
-    if is_beside_first(part, parts) {
-        any |= fill(run, part, &known, &mut films[number])?;
-    }
-    if !any {
+    if !take_better(&mut films[number], &anew) {
         return Ok(());
     }
     let femur = femur_of(part, parts, films);
@@ -87,11 +79,6 @@ fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cel
     let mut cells = vec![Cell::default(); run.film.count()];
     let anchors = again(run, part, anchors)?;
     follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
+    fill(run, part, &mut cells)?;
     Ok(cells)
-}
-
-/// Whether a component is looked for beside the other one before it is in whole frames.
-fn is_beside_first(part: &Part<'_>, parts: &[Part<'_>]) -> bool {
-    let is_femur = |part: &Part<'_>| part.role() == Some(Role::Femur);
-    is_tibia(part) && parts.iter().any(is_femur)
 }
