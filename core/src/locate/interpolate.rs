@@ -36,8 +36,7 @@ pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch
     let library = search.library();
     let grid = &library.info().grid;
     let (x, y) = grid.place(candidate.view);
-    let canonical = search.query().canonical(candidate.reversed);
-    let [fine_x, fine_y] = bands::solve(library, canonical, (x, y)).unwrap_or_else(|| {
+    let [fine_x, fine_y] = bands::solve(search, candidate).unwrap_or_else(|| {
         let score = |view| search.score(view, candidate.reversed);
         let (dx, dy) = fit_minimum(grid, score, x, y);
         [x as f64 + dx, y as f64 + dy]

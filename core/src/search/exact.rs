@@ -12,8 +12,8 @@ use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, bound, longest_sketch};
-use crate::search::scores::{MatchError, ViewMatch, neighbours, scores_needed};
-use crate::shortlist::{keep, smallest};
+use crate::search::scores::{MatchError, ViewMatch, neighbours, rows_around, scores_needed};
+use crate::shortlist::keep;
 
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
@@ -96,13 +96,13 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return;
         };
         let stride = sketches.stride();
-        let ours = memory.get_mut(..stride).unwrap_or_default();
+        let ours = memory.get_mut(..sketches.compared()).unwrap_or_default();
         let views = self.library.views().max(1);
         for (reversed, bounds) in [false, true].into_iter().zip(self.bounds.chunks_mut(views)) {
             let base = self
                 .query
                 .sketch_for(&sketches, reversed, &self.kernels, ours);
-            bound(ours, sketches.all, base, &self.kernels, bounds);
+            bound(ours, sketches.all, stride, base, &self.kernels, bounds);
         }
     }
 
@@ -153,11 +153,6 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn at_least_at(&self, place: usize) -> u32 {
         let bound = self.bounds.get(place);
         bound.map_or(u32::MAX, |bound| bound & !EXACT)
-    }
-
-    fn known(&self, view: usize, reversed: bool) -> Option<u32> {
-        let known = self.bounds.get(self.place(view, reversed))?;
-        (known & EXACT != 0).then_some(known & !EXACT)
     }
 
     fn place(&self, view: usize, reversed: bool) -> usize {
@@ -254,17 +249,14 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn promising(&self, most: u32) -> Vec<(u32, usize), DESCENTS> {
         let mut least: Vec<(u32, usize), DESCENTS> = Vec::new();
         let mut limit = most;
-        for place in 0..scores_needed(self.library.views()) {
-            let bound = self.at_least_at(place);
-            if bound > limit {
+        for (place, bound) in self.bounds.iter().enumerate() {
+            let bound = bound & !EXACT;
+            if bound > limit || !self.is_minimum_of_bounds(place, bound) {
                 continue;
             }
-            let (view, reversed) = self.apart(place);
-            if self.is_minimum_of_bounds(view, reversed) {
-                keep(&mut least, (bound, place), |&(bound, _)| bound);
-                if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
-                    limit = most.min(last);
-                }
+            keep(&mut least, (bound, place), |&(bound, _)| bound);
+            if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
+                limit = most.min(last);
             }
         }
         least
@@ -277,10 +269,41 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         }
     }
 
-    fn is_minimum_of_bounds(&self, view: usize, reversed: bool) -> bool {
-        let bound = self.at_least(view, reversed);
-        neighbours(&self.library.info().grid, view)
-            .all(|neighbour| bound <= self.at_least(neighbour, reversed))
+    fn is_minimum_of_bounds(&self, place: usize, bound: u32) -> bool {
+        let (view, reversed) = self.apart(place);
+        let mut rows = self.around(view, reversed);
+        rows.all(|(_, row)| row.iter().all(|other| bound <= other & !EXACT))
+    }
+
+    /// The rows of bounds of the views around one, itself among them, each with the number of its first view.
+    fn around(&self, view: usize, reversed: bool) -> impl Iterator<Item = (usize, &[u32])> {
+        let views = self.library.views();
+        let surfaces = self.bounds.split_at_checked(views).unwrap_or_default();
+        let surface = if reversed { surfaces.1 } else { surfaces.0 };
+        let rows = rows_around(&self.library.info().grid, view);
+        rows.filter_map(|row| Some((row.start, surface.get(row)?)))
+    }
+
+    /// Whether a neighbour is known to have fewer unmatched pixels.
+    fn has_known_below(&self, pixels: u32, view: usize, reversed: bool) -> bool {
+        // The number of such a one lies between its mark alone and this.
+        let is_below = |known: &u32| (EXACT..EXACT | pixels).contains(known);
+        let mut rows = self.around(view, reversed);
+        rows.any(|(_, row)| row.iter().any(is_below))
+    }
+
+    /// The neighbour with the least bound, the first of equals, and that bound.
+    fn likeliest_neighbour(&self, view: usize, reversed: bool) -> (u32, usize) {
+        let mut least = (u32::MAX, view);
+        for (first, row) in self.around(view, reversed) {
+            for (neighbour, bound) in (first..).zip(row) {
+                let bound = bound & !EXACT;
+                if bound < least.0 && neighbour != view {
+                    least = (bound, neighbour);
+                }
+            }
+        }
+        least
     }
 
     /// The local minimum that descent over neighbours leads to.
@@ -299,33 +322,28 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn is_minimum(&mut self, view: usize, reversed: bool) -> bool {
         // Where a neighbour is known to beat even the bound, the view need not be compared.
         let bound = self.at_least(view, reversed);
-        let grid = &self.library.info().grid;
-        let beaten = neighbours(grid, view).any(|neighbour| {
-            let known = self.known(neighbour, reversed);
-            known.is_some_and(|known| known < bound)
-        });
-        if beaten {
+        if self.has_known_below(bound, view, reversed) {
             return false;
         }
         // Otherwise the likeliest neighbour is compared first: it beats other views around it, too.
-        let least = neighbours(grid, view).min_by_key(|&near| self.at_least(near, reversed));
-        let beaten = least.is_some_and(|least| {
-            self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
-        });
+        let (least, neighbour) = self.likeliest_neighbour(view, reversed);
+        let beaten = least < bound && self.score(neighbour, reversed) < bound;
         !beaten && self.better_neighbour(view, reversed).is_none()
     }
 
-    /// The neighbour that beats a view, if one does: that with the least bound is compared first. Of equal neighbours
+    /// A neighbour that beats a view, if one does: that with the least bound is compared first. Of equal neighbours
     /// the first beats.
     fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
-        let score = self.score(view, reversed);
-        let library = self.library;
-        let key = |&neighbour: &usize| (self.at_least(neighbour, reversed), neighbour);
-        let near: Vec<usize, 8> = smallest(neighbours(&library.info().grid, view), key);
-        near.iter().copied().find(|&neighbour| {
-            self.at_least(neighbour, reversed) <= score
-                && (self.score(neighbour, reversed), neighbour) < (score, view)
-        })
+        let own = (self.score(view, reversed), view);
+        loop {
+            let (bound, neighbour) = self.likeliest_neighbour(view, reversed);
+            if (bound, neighbour) > own {
+                return None;
+            }
+            if (self.score(neighbour, reversed), neighbour) < own {
+                return Some(neighbour);
+            }
+        }
     }
 }
 
