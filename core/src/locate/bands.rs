@@ -100,7 +100,7 @@ impl Neighbourhood {
 /// The functional of one grid axis, less its value for the silhouette: a biquadratic polynomial through the 3 x 3 nearest
 /// views. All its terms are whole quarters, so they are exact.
 struct Functional {
-    /// By powers of the steps from the view in the middle: along y, and in each of these along x.
+    /// By powers of the steps from the view in the middle: along x, and in each of these along y.
     terms: [[f64; 3]; 3],
 }
 
@@ -119,25 +119,23 @@ impl Functional {
         for (node, (&ahead, &behind)) in nodes.as_flattened_mut().iter_mut().zip(pixels) {
             *node = f64::from(ahead) - f64::from(behind) - target;
         }
-        let [above, here, below] = nodes.map(parabola);
-        let columns: [_; 3] =
-            core::array::from_fn(|power| parabola([above[power], here[power], below[power]]));
-        let terms = core::array::from_fn(|along_y| columns.map(|column| column[along_y]));
-        Self { terms }
+        let [[a, b, c], [d, e, f], [g, h, i]] = nodes.map(parabola);
+        Self {
+            terms: [[a, d, g], [b, e, h], [c, f, i]].map(parabola),
+        }
     }
 
     fn at(&self, [x, y]: [f64; 2]) -> Slopes {
-        let rows = self.terms.map(|[a, b, c]| {
-            let slope = b + x * c;
-            [a + x * slope, slope + x * c]
+        let [constant, linear, square] = self.terms.map(|[a, b, c]| {
+            let slope = b + y * c;
+            (a + y * slope, slope + y * c)
         });
-        let [value, slope] = [0, 1].map(|which| rows.map(|row| row[which]));
-        let along_y = value[1] + y * value[2];
+        let along_x = linear.0 + x * square.0;
         Slopes {
-            value: value[0] + y * along_y,
+            value: constant.0 + x * along_x,
             along: [
-                slope[0] + y * (slope[1] + y * slope[2]),
-                along_y + y * value[2],
+                along_x + x * square.0,
+                constant.1 + x * (linear.1 + x * square.1),
             ],
         }
     }
