@@ -17,7 +17,10 @@ pub use compiled::available;
 /// The fastest kernels for this machine.
 #[must_use]
 pub fn fastest() -> Kernels {
+    #[cfg(usada8)]
+    return usada8::KERNELS;
     // The slowest come first.
+    #[cfg(not(usada8))]
     available().last().unwrap_or_default()
 }
 
