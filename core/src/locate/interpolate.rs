@@ -108,9 +108,10 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
         ..ViewRecord::default()
     };
     for v in rows.clone() {
+        let down = lagrange(&rows, v, place[1]);
         for u in columns.clone() {
             let record = library.record(grid.view(u, v));
-            let weight = lagrange(&columns, u, place[0]) * lagrange(&rows, v, place[1]);
+            let weight = lagrange(&columns, u, place[0]) * down;
             mean.scale += weight * record.scale;
             mean.angle += weight * wrap(record.angle - centre.angle, core::f64::consts::PI);
             mean.offset[0] += weight * record.offset[0];

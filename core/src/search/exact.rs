@@ -5,7 +5,7 @@
 //! been found already are compared in full. The answers are those of comparing every view, ties
 //! included. In a plain library, which has no sketches, every view is compared.
 
-use heapless::Vec;
+use heapless::{Vec, VecView};
 
 use crate::canonical::CanonicalSpec;
 use crate::library::Library;
@@ -175,16 +175,22 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
     /// straight direction first.
     pub fn best<const K: usize>(&mut self, directions: Directions) -> Vec<ViewMatch, K> {
+        let mut best = Vec::new();
+        self.add_best(directions, &mut best);
+        best
+    }
+
+    fn add_best(&mut self, directions: Directions, candidates: &mut VecView<ViewMatch>) {
         let places = match directions {
             Directions::Straight => self.library.views(),
             Directions::Both => scores_needed(self.library.views()),
         };
-        let mut best = Shortlist::up_to(u32::MAX);
+        let mut best = Shortlist::up_to(u32::MAX, candidates);
         // The least bound first: what it turns out to be rules most of the others out.
         let bounds = self.bounds.iter().take(places).enumerate();
         let least = bounds.min_by_key(|(_, bound)| **bound & !EXACT);
         let Some(first) = least.map(|(place, _)| place) else {
-            return best.candidates;
+            return;
         };
         best.offer(self.candidate(first));
         for place in 0..places {
@@ -193,13 +199,14 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
                 best.offer(candidate);
             }
         }
-        best.candidates
     }
 
     /// The best `K` local minima of the score surfaces, both directions: views that none of their
     /// eight neighbours beats. These are the rival poses; the views beside a minimum are not.
     pub fn minima<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
-        self.minima_up_to(u32::MAX)
+        let mut minima = Vec::new();
+        self.add_minima(u32::MAX, &mut minima);
+        minima
     }
 
     /// The best `K` of these minima whose unmatched pixels exceed the best one's by no more than four steps of the grid
@@ -218,12 +225,14 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             })
             .max();
         let beyond = step.map_or(u32::MAX, |step| RIVAL_STEPS.saturating_mul(step));
-        self.minima_up_to(best.unmatched.saturating_add(beyond))
+        let mut rivals = Vec::new();
+        self.add_minima(best.unmatched.saturating_add(beyond), &mut rivals);
+        rivals
     }
 
-    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<ViewMatch, K> {
+    fn add_minima(&mut self, most: u32, candidates: &mut VecView<ViewMatch>) {
         let places = scores_needed(self.library.views());
-        let mut minima = Shortlist::up_to(most);
+        let mut minima = Shortlist::up_to(most, candidates);
         // Going downhill from the least of the bounds' own minima finds most of them: a limit for the rest.
         for (bound, place) in self.promising(most) {
             if bound <= minima.limit() {
@@ -242,7 +251,6 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
                 minima.offer(candidate);
             }
         }
-        minima.candidates
     }
 
     /// The least minima of the bounds, up to a limit, with their places.
@@ -347,19 +355,17 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     }
 }
 
-/// The best `K` candidates so far, best first.
-struct Shortlist<const K: usize> {
-    candidates: Vec<ViewMatch, K>,
+/// The best candidates so far, as many as there is room for, best first. One function for lists of all lengths, because a microcontroller would have it for
+/// each.
+struct Shortlist<'v> {
+    candidates: &'v mut VecView<ViewMatch>,
     /// Unmatched pixels that are too many in any case are more than this.
     most: u32,
 }
 
-impl<const K: usize> Shortlist<K> {
-    fn up_to(most: u32) -> Self {
-        Self {
-            candidates: Vec::new(),
-            most,
-        }
+impl<'v> Shortlist<'v> {
+    fn up_to(most: u32, candidates: &'v mut VecView<ViewMatch>) -> Self {
+        Self { candidates, most }
     }
 
     /// What has more unmatched pixels than this is none of the best.
@@ -367,7 +373,7 @@ impl<const K: usize> Shortlist<K> {
         match self.candidates.last() {
             Some(last) if self.candidates.is_full() => last.unmatched.min(self.most),
             // A list without room has no best.
-            None if K == 0 => 0,
+            None if self.candidates.is_full() => 0,
             _ => self.most,
         }
     }
@@ -376,7 +382,7 @@ impl<const K: usize> Shortlist<K> {
     fn offer(&mut self, candidate: ViewMatch) {
         let key = |one: &ViewMatch| (one.unmatched, one.reversed, one.view);
         if candidate.unmatched <= self.most && !self.candidates.contains(&candidate) {
-            keep(&mut self.candidates, candidate, key);
+            keep(self.candidates, candidate, key);
         }
     }
 }
