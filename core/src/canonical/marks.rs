@@ -64,7 +64,6 @@ impl Inverse {
         if !(half[0] <= widest && half[1] <= size as f64) {
             return None;
         }
-        let fixed = |canonical: f64| (canonical * (1u64 << PLACES) as f64) as i64;
         let middle = |axis: usize| {
             let column = (1.0 - self.centre.column) * along[axis];
             let row = (1.0 - self.centre.row) * across[axis];
@@ -85,6 +84,12 @@ impl Inverse {
             ],
         })
     }
+}
+
+/// A canonical position or step as a whole number.
+#[cfg_attr(target_os = "none", inline(never))]
+fn fixed(canonical: f64) -> i64 {
+    (canonical * (1u64 << PLACES) as f64) as i64
 }
 
 impl Boxes {

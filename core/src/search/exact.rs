@@ -194,7 +194,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         };
         best.offer(self.candidate(first));
         for place in 0..places {
-            if self.at_least_at(place) <= best.limit() && place != first {
+            if self.at_least_at(place) <= best.limit && place != first {
                 let candidate = self.candidate(place);
                 best.offer(candidate);
             }
@@ -218,11 +218,9 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return Vec::new();
         };
         let library = self.library;
+        let own = library.pixels(best.view);
         let step = neighbours(&library.info().grid, best.view)
-            .map(|near| {
-                let pixels = library.pixels(best.view) + library.pixels(near);
-                pixels - 2 * library.overlap(best.view, near)
-            })
+            .map(|near| own + library.pixels(near) - 2 * library.overlap(best.view, near))
             .max();
         let beyond = step.map_or(u32::MAX, |step| RIVAL_STEPS.saturating_mul(step));
         let mut rivals = Vec::new();
@@ -235,14 +233,14 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         let mut minima = Shortlist::up_to(most, candidates);
         // Going downhill from the least of the bounds' own minima finds most of them: a limit for the rest.
         for (bound, place) in self.promising(most) {
-            if bound <= minima.limit() {
+            if bound <= minima.limit {
                 let (view, reversed) = self.apart(place);
                 let candidate = self.descend(view, reversed);
                 minima.offer(candidate);
             }
         }
         for place in 0..places {
-            if self.at_least_at(place) > minima.limit() {
+            if self.at_least_at(place) > minima.limit {
                 continue;
             }
             let (view, reversed) = self.apart(place);
@@ -359,30 +357,25 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
 /// each.
 struct Shortlist<'v> {
     candidates: &'v mut VecView<ViewMatch>,
-    /// Unmatched pixels that are too many in any case are more than this.
-    most: u32,
+    /// What has more unmatched pixels than this is none of the best.
+    limit: u32,
 }
 
 impl<'v> Shortlist<'v> {
     fn up_to(most: u32, candidates: &'v mut VecView<ViewMatch>) -> Self {
-        Self { candidates, most }
-    }
-
-    /// What has more unmatched pixels than this is none of the best.
-    fn limit(&self) -> u32 {
-        match self.candidates.last() {
-            Some(last) if self.candidates.is_full() => last.unmatched.min(self.most),
-            // A list without room has no best.
-            None if self.candidates.is_full() => 0,
-            _ => self.most,
-        }
+        // A list without room has no best.
+        let limit = if candidates.is_full() { 0 } else { most };
+        Self { candidates, limit }
     }
 
     /// Takes a candidate in its place, once.
     fn offer(&mut self, candidate: ViewMatch) {
         let key = |one: &ViewMatch| (one.unmatched, one.reversed, one.view);
-        if candidate.unmatched <= self.most && !self.candidates.contains(&candidate) {
+        if candidate.unmatched <= self.limit && !self.candidates.contains(&candidate) {
             keep(self.candidates, candidate, key);
+        }
+        if let (true, Some(last)) = (self.candidates.is_full(), self.candidates.last()) {
+            self.limit = last.unmatched;
         }
     }
 }
