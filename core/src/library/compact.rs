@@ -148,7 +148,10 @@ impl<K: Iterator<Item = (usize, u8)>> Comparison<'_, '_, K> {
             (block, expected) = self.kept.next().unwrap_or(NOT_KEPT);
         }
         self.next = (block, expected);
-        self.is_same &= differs == 0 && counts == common;
+        for (count, common) in counts.iter().zip(common) {
+            differs |= count ^ common;
+        }
+        self.is_same &= differs == 0 && counts.len() == common.len();
         self.row += 1;
         self.block += self.across;
     }
