@@ -196,6 +196,7 @@ fn newton_step(functionals: &[Functional; 2], place: [f64; 2]) -> Option<[f64; 2
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn lagrange_reproduces_parabolas() {
@@ -207,6 +208,35 @@ mod tests {
                 .map(|n| lagrange(&nodes, n, x) * parabola(n as f64))
                 .sum();
             assert!((value - parabola(x)).abs() < 1e-12);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_functional_has_its_nodes_and_slopes(
+            ahead in proptest::array::uniform9(0u32..20_000),
+            behind in proptest::array::uniform9(0u32..20_000),
+            target in -9000i32..9000,
+            place in proptest::array::uniform2(-1.0..1.0f64),
+        ) {
+            let target = f64::from(target) / 2.0;
+            let functional = Functional::new(&ahead, &behind, target);
+            for node in 0..9 {
+                let value = functional.at([(node % 3) as f64 - 1.0, (node / 3) as f64 - 1.0]).value;
+                let expected = f64::from(ahead[node]) - f64::from(behind[node]) - target;
+                prop_assert_eq!(value, expected);
+            }
+            let Slopes { along, .. } = functional.at(place);
+            for (axis, slope) in along.into_iter().enumerate() {
+                // Central differences of a parabola are its slopes.
+                let value = |step: f64| {
+                    let mut moved = place;
+                    moved[axis] += step;
+                    functional.at(moved).value
+                };
+                let difference = value(0.5) - value(-0.5);
+                prop_assert!((difference - slope).abs() < 1e-6, "{} {}", difference, slope);
+            }
         }
     }
 
