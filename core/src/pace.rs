@@ -45,7 +45,12 @@ impl Pace {
 
     /// Takes a slice, or pauses until one is left. An executor is asked to come back: the work waits for nothing else.
     pub fn pause(&self) -> impl Future<Output = ()> {
-        poll_fn(|context| match self.slices.get().checked_sub(1) {
+        poll_fn(|context| self.take(context))
+    }
+
+    /// A slice, where one is left.
+    pub(crate) fn take(&self, context: &mut Context<'_>) -> Poll<()> {
+        match self.slices.get().checked_sub(1) {
             Some(left) => {
                 self.slices.set(left);
                 Poll::Ready(())
@@ -54,7 +59,7 @@ impl Pace {
                 context.waker().wake_by_ref();
                 Poll::Pending
             }
-        })
+        }
     }
 }
 

@@ -62,7 +62,7 @@ pub use places::places_needed;
 pub use polarity::{polarity_at, polarity_inside, polarity_near};
 pub use profiles::film_profiles;
 pub use result::{Iterate, Refined};
-pub(crate) use run::{begin, correct_unless, finish, probe, refine_unless};
+pub(crate) use run::{Part, correct_unless, probe, refine_unless};
 pub use run::{correct, refine, refine_paced, refine_traced};
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::{Assessment, assess, fit_at, uncertainty};

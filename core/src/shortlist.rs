@@ -2,21 +2,21 @@
 
 use core::mem::swap;
 
-use heapless::Vec;
+use heapless::{Vec, VecView};
 
 /// Inserts `item` into a list sorted by rising `key`, behind items with an equal key. A full list drops its last item; an
 /// item that would come after that one is not inserted. Returns the place of `item`, `None` where it is not inserted.
-pub fn keep<T, K: PartialOrd, const N: usize>(
-    list: &mut Vec<T, N>,
+pub fn keep<T, K: PartialOrd>(
+    list: &mut VecView<T>,
     item: T,
     key: impl Fn(&T) -> K,
 ) -> Option<usize> {
     let own = key(&item);
     let place = list.partition_point(|other| key(other) <= own);
-    if place == N {
-        return None;
-    }
     if list.is_full() {
+        if place == list.len() {
+            return None;
+        }
         list.pop();
     }
     // There is room now. The last goes before all that are to come behind it.

@@ -7,6 +7,7 @@
 use fluoropose::search::kernels::Kernels;
 
 /// Compiles the kernels for some instructions.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! compile_for {
     ($module:ident, $name:literal, $features:literal) => {
         mod $module {
@@ -19,8 +20,14 @@ macro_rules! compile_for {
             }
 
             #[target_feature(enable = $features)]
-            fn distances_here(sketch: &[u8], sketches: &[u8], base: u32, out: &mut [u32]) {
-                kernels::distances(sketch, sketches, base, out);
+            fn distances_here(
+                sketch: &[u8],
+                sketches: &[u8],
+                stride: usize,
+                base: u32,
+                out: &mut [u32],
+            ) {
+                kernels::distances(sketch, sketches, stride, base, out);
             }
 
             #[target_feature(enable = $features)]
@@ -34,8 +41,14 @@ macro_rules! compile_for {
                 unsafe { unmatched_here(words, bytes) }
             }
 
-            fn distances(sketch: &[u8], sketches: &[u8], base: u32, out: &mut [u32]) {
-                unsafe { distances_here(sketch, sketches, base, out) }
+            fn distances(
+                sketch: &[u8],
+                sketches: &[u8],
+                stride: usize,
+                base: u32,
+                out: &mut [u32],
+            ) {
+                unsafe { distances_here(sketch, sketches, stride, base, out) }
             }
 
             fn gap(ours: [&[u8]; 2], theirs: [&[u8]; 2]) -> u32 {
@@ -103,9 +116,15 @@ pub fn available() -> impl Iterator<Item = Kernels> {
     [Kernels::PORTABLE].into_iter().chain(neon)
 }
 
+/// All kernels that a Cortex-M4 or M7 can run, the slowest first.
+#[cfg(usada8)]
+pub fn available() -> impl Iterator<Item = Kernels> {
+    [Kernels::PORTABLE, super::usada8::KERNELS].into_iter()
+}
+
 /// All kernels that this machine can run: of a WASM module those that it was compiled for, `simd128` or not; what has
 /// fewer instructions cannot be chosen while it runs.
-#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64", usada8)))]
 pub fn available() -> impl Iterator<Item = Kernels> {
     let name = if cfg!(target_feature = "simd128") {
         "simd128"

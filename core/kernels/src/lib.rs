@@ -3,9 +3,12 @@
 //! The loops themselves are those of [`fluoropose::search::kernels`]: safe and portable, written so that
 //! the compiler makes wide instructions of them. Here they are compiled once more for each kind of
 //! machine. All that is unsafe stands in `compiled.rs`: calling what was compiled for a machine that was found to be
-//! this one.
+//! this one; and in `usada8.rs`: an instruction that the compiler does not make.
+#![cfg_attr(target_os = "none", no_std)]
 
 mod compiled;
+#[cfg(usada8)]
+mod usada8;
 
 use fluoropose::search::kernels::Kernels;
 
@@ -14,7 +17,10 @@ pub use compiled::available;
 /// The fastest kernels for this machine.
 #[must_use]
 pub fn fastest() -> Kernels {
+    #[cfg(usada8)]
+    return usada8::KERNELS;
     // The slowest come first.
+    #[cfg(not(usada8))]
     available().last().unwrap_or_default()
 }
 

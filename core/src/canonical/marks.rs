@@ -24,7 +24,7 @@ pub(super) struct Inverse {
 
 /// The canonical pixels in the boxes around cells' images, which are parallelograms.
 struct Boxes {
-    size: i64,
+    size: i32,
     column: [i64; 2],
     row: [i64; 2],
     /// The first pixel after the box of cell (0, 0), and the one after its last.
@@ -64,7 +64,6 @@ impl Inverse {
         if !(half[0] <= widest && half[1] <= size as f64) {
             return None;
         }
-        let fixed = |canonical: f64| (canonical * (1u64 << PLACES) as f64) as i64;
         let middle = |axis: usize| {
             let column = (1.0 - self.centre.column) * along[axis];
             let row = (1.0 - self.centre.row) * across[axis];
@@ -72,7 +71,7 @@ impl Inverse {
         };
         let middle = [middle(0), middle(1)];
         Some(Boxes {
-            size: size as i64,
+            size: size as i32,
             column: self.column.map(fixed),
             row: self.row.map(fixed),
             first: [
@@ -87,6 +86,12 @@ impl Inverse {
     }
 }
 
+/// A canonical position or step as a whole number.
+#[cfg_attr(target_os = "none", inline(never))]
+fn fixed(canonical: f64) -> i64 {
+    (canonical * (1u64 << PLACES) as f64) as i64
+}
+
 impl Boxes {
     /// Columns, one more to the right included, and rows; `None` where all are beyond the frame.
     #[inline(always)]
@@ -94,12 +99,13 @@ impl Boxes {
         let (column, row) = (i64::from(column), i64::from(row));
         let reach = |axis: usize| {
             let moved = column * self.column[axis] + row * self.row[axis];
-            [self.first, self.end].map(|at| (at[axis] + moved) >> PLACES)
+            let pixel = |at: i64| ((at + moved) >> PLACES) as i32;
+            [pixel(self.first[axis]), pixel(self.end[axis])]
         };
         let ([left, right], [top, bottom]) = (reach(0), reach(1));
         let (left, top) = (left.max(0), top.max(0));
         let (right, bottom) = (right.min(self.size), bottom.min(self.size));
-        let pixels = |from: i64, to: i64| from as usize..to as usize;
+        let pixels = |from: i32, to: i32| from as usize..to as usize;
         (left < right && top < bottom).then_some((pixels(left, right), pixels(top, bottom)))
     }
 }

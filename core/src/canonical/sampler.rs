@@ -10,12 +10,17 @@ use crate::math::ranking;
 /// Binary places of a position.
 const PLACES: u32 = 16;
 
+/// Binary places of what a position is reckoned from: products of a canonical frame's pixels lose none of a position's.
+const FINE_PLACES: u32 = 34;
+
 /// The affine map from canonical pixels to frame pixels.
 pub(super) struct Sampler {
-    centre: Point,
-    /// Frame columns and rows of a canonical pixel to the right, and of one up.
-    right: [f64; 2],
-    up: [f64; 2],
+    /// Column and row of the canonical centre relative to pixel centres, of [`FINE_PLACES`].
+    centre: [i64; 2],
+    /// Columns and rows of half a canonical pixel to the right, and of half a one up, of [`FINE_PLACES`].
+    right: [i64; 2],
+    up: [i64; 2],
+    /// Columns and rows of a canonical pixel to the right, of [`PLACES`].
     step: [i64; 2],
     inverse: Inverse,
 }
@@ -24,12 +29,14 @@ impl Sampler {
     pub(super) fn new(form: &CanonicalForm) -> Self {
         let (sin, cos) = ranking::sin_cos(form.angle);
         let (x, y) = (1.0 / form.scale, 1.0 / (form.scale * form.aspect));
-        let right = [cos * x, -sin * y];
+        let (right, up) = ([cos * x, -sin * y], [-sin * x, -cos * y]);
+        let fine = |value: f64| to_fixed(value, FINE_PLACES);
+        let Point { column, row } = form.centroid;
         Self {
-            centre: form.centroid,
-            right,
-            up: [-sin * x, -cos * y],
-            step: right.map(to_fixed),
+            centre: [column - 0.5, row - 0.5].map(fine),
+            right: right.map(|along| fine(0.5 * along)),
+            up: up.map(|along| fine(0.5 * along)),
+            step: right.map(|along| to_fixed(along, PLACES)),
             inverse: Inverse {
                 centre: form.centroid,
                 column: [cos, sin].map(|along| along * form.scale),
@@ -41,19 +48,27 @@ impl Sampler {
     /// Draws the canonical silhouette into an empty mask. From one pixel of a row to the next the silhouette changes only
     /// where its border lies: the pixels there are read, and each holds for those up to the next that is.
     pub(super) fn draw(&self, mask: &Mask<'_>, canonical: &mut MaskMut<'_>) {
-        let (size, half) = (canonical.width(), canonical.width() as f64 / 2.0);
+        let size = canonical.width();
         if self.inverse.mark(mask, canonical).is_break() {
             (0..size).for_each(|row| canonical.row_mut(row).fill(Word::MAX));
         }
         for row in 0..size {
-            let up = half - (row as f64 + 0.5);
-            self.read(mask, canonical.row_mut(row), 0.5 - half, up);
+            let start = self.left_of(size, row);
+            self.read(mask, canonical.row_mut(row), start);
         }
     }
 
-    /// Replaces the marks of a row by its pixels, the first of which is read in any case and lies `right` and `up` of the
-    /// canonical centre.
-    fn read(&self, mask: &Mask<'_>, words: &mut [Word], right: f64, up: f64) {
+    /// Where the first pixel of a row lies, of [`FINE_PLACES`].
+    fn left_of(&self, size: usize, row: usize) -> [i64; 2] {
+        // Halves of pixels from the canonical centre, to the right and up.
+        let (right, up) = (1 - size as i64, size as i64 - 1 - 2 * row as i64);
+        core::array::from_fn(|axis| {
+            self.centre[axis] + right * self.right[axis] + up * self.up[axis]
+        })
+    }
+
+    /// Replaces the marks of a row by its pixels, the first of which is read in any case and lies at `start`.
+    fn read(&self, mask: &Mask<'_>, words: &mut [Word], start: [i64; 2]) {
         let mut value = 0;
         for (index, word) in words.iter_mut().enumerate() {
             let marks = *word | Word::from(index == 0);
@@ -61,7 +76,7 @@ impl Sampler {
             if marks == 0 {
                 continue;
             }
-            let start = self.start(right + (index * WORD_BITS) as f64, up);
+            let start = self.word(start, index);
             let mut pixels = value;
             for bit in ones(u64::from(marks)) {
                 let covered = start.moved(self.step, bit).is_covered(mask);
@@ -73,27 +88,33 @@ impl Sampler {
         }
     }
 
-    /// The frame position `right` and `up` canonical pixels from the canonical centre.
-    fn start(&self, right: f64, up: f64) -> Position {
-        let column = self.centre.column + right * self.right[0] + up * self.up[0];
-        let row = self.centre.row + right * self.right[1] + up * self.up[1];
+    /// Where the first pixel of a word lies.
+    fn word(&self, start: [i64; 2], index: usize) -> Position {
+        let halves = 2 * (index * WORD_BITS) as i64;
+        let at = |axis: usize| round(start[axis] + halves * self.right[axis]);
         Position {
-            column: to_fixed(column - 0.5),
-            row: to_fixed(row - 0.5),
+            column: at(0),
+            row: at(1),
         }
     }
 }
 
-/// Rounds to 1/65 536; saturates far beyond any frame.
-fn to_fixed(value: f64) -> i64 {
-    let value = value * f64::from(1u32 << PLACES);
+/// From [`FINE_PLACES`] to [`PLACES`].
+fn round(fine: i64) -> i64 {
+    const CUT: u32 = FINE_PLACES - PLACES;
+    (fine + (1 << (CUT - 1))) >> CUT
+}
+
+/// Rounds to so many binary places; saturates far beyond any frame.
+fn to_fixed(value: f64, places: u32) -> i64 {
+    let value = value * (1u64 << places) as f64;
     // Cut off towards zero.
     let fixed = (value + 0.5f64.copysign(value)) as i64;
     fixed.clamp(-FARTHEST, FARTHEST)
 }
 
-/// Beyond any frame, and some steps of that length are still a number.
-const FARTHEST: i64 = 1 << 48;
+/// Beyond any frame in either number of places, and as many steps of that length as a canonical frame is wide and high are still a number.
+const FARTHEST: i64 = 1 << 51;
 
 /// A frame position relative to pixel centres, in 1/65 536 pixel.
 struct Position {
@@ -158,10 +179,8 @@ mod tests {
 
     /// Oracle: a canonical pixel by itself, from four pixels that are read one by one.
     fn is_set(sampler: &Sampler, mask: &Mask<'_>, canonical: (usize, usize)) -> bool {
-        let half = SIDE as f64 / 2.0;
         let (word, bit) = (canonical.0 / WORD_BITS, canonical.0 % WORD_BITS);
-        let right = (word * WORD_BITS) as f64 + 0.5 - half;
-        let start = sampler.start(right, half - (canonical.1 as f64 + 0.5));
+        let start = sampler.word(sampler.left_of(SIDE, canonical.1), word);
         let column = start.column + sampler.step[0] * bit as i64;
         let row = start.row + sampler.step[1] * bit as i64;
         let weight = |position: i64, next: i64| {

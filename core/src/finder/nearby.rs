@@ -47,7 +47,8 @@ pub fn nearby(
     step_deg: f64,
     memory: &mut RefineMemory<'_>,
 ) -> Vec<Pose, NEARBY> {
-    let mut found: Vec<(u64, Pose), NEARBY> = Vec::new();
+    // A place is left for `start` itself.
+    let mut found: Vec<(u64, Pose), { NEARBY - 1 }> = Vec::new();
     let (width, height) = (camera.width(), camera.height());
     let words = memory.drawn.get_mut(..words_needed(width, height));
     let drawn = MaskMut::new(words.unwrap_or_default(), width, height);
@@ -73,7 +74,6 @@ pub fn nearby(
         }
     }
     let mut poses: Vec<Pose, NEARBY> = first_of(found.iter().map(|&(_, pose)| pose));
-    // One place was left for it.
     let _ = poses.push(*start);
     poses
 }

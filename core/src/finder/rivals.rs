@@ -12,7 +12,7 @@ use crate::mesh::symmetry::SymmetryPlane;
 use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
+    CameraView, Part, RefineError, RefineMemory, RefineOptions, Refined, Target, probe,
     refine_unless,
 };
 use crate::shortlist::{keep, take_out};
@@ -145,16 +145,17 @@ impl RivalRefinement<'_, '_> {
     async fn go_on(
         &mut self,
         pose: &Pose,
-        (from, start, mirrored): (&Pose, usize, bool),
+        (from, index, mirrored): (&Pose, usize, bool),
     ) -> Result<Went, RefineError> {
         let (answers, is_outline) = (&*self.answers, self.is_outline());
         let known = |pose: &Pose| is_outline && is_among(answers, pose);
-        let (model, views, options) = (self.model, self.views, self.options);
-        let refined = refine_unless(model, views, pose, options, &known, self.memory, self.pace);
+        let (seen, options) = ((self.model, self.views), self.options);
+        let (start, part) = (&Refined::at(*pose), Part::All);
+        let refined = refine_unless(seen, start, part, options, &known, self.memory, self.pace);
         match refined.await? {
             None => Ok(Went::Back),
             Some(refined) => {
-                self.keep(*from, refined, start, mirrored);
+                self.keep(*from, refined, index, mirrored);
                 Ok(Went::On)
             }
         }
@@ -179,10 +180,11 @@ impl RivalRefinement<'_, '_> {
             let mut begun = Vec::new();
             self.begin_all(starts, &mut begun, &mut failure).await;
             for (start, begun) in &begun {
-                let (model, views, options) = (self.model, self.views, self.options);
-                let answers = &*self.answers;
+                let (seen, options) = ((self.model, self.views), self.options);
+                let (answers, part) = (&*self.answers, Part::Rest);
                 let known = |pose: &Pose| is_among(answers, pose);
-                let finished = finish(model, views, begun, options, &known, self.memory, self.pace);
+                let finished =
+                    refine_unless(seen, begun, part, options, &known, self.memory, self.pace);
                 match finished.await {
                     Ok(None) => {}
                     Ok(Some(refined)) => {
@@ -223,8 +225,9 @@ impl RivalRefinement<'_, '_> {
                 let mut begun = begun.iter();
                 begun.any(|(_, other)| is_on_the_way(pose, &other.pose, LOOKED_SAME_DEG))
             };
-            let (model, views, options) = (self.model, self.views, self.options);
-            let begun_here = begin(model, views, pose, options, &known, self.memory, self.pace);
+            let (seen, options) = ((self.model, self.views), self.options);
+            let (at, part) = (&Refined::at(*pose), Part::First);
+            let begun_here = refine_unless(seen, at, part, options, &known, self.memory, self.pace);
             match begun_here.await {
                 Ok(None) => {}
                 Ok(Some(one)) => {
@@ -291,24 +294,6 @@ impl RivalRefinement<'_, '_> {
         (looked.loss <= limit && !self.answers.iter().any(known)).then_some(looked.pose)
     }
 
-    /// A quick look at where a start leads; nothing where it leads to what is `known`.
-    async fn look(
-        &mut self,
-        start: &Pose,
-        known: &dyn Fn(&Pose) -> bool,
-    ) -> Result<Option<Refined>, RefineError> {
-        probe(
-            self.model,
-            self.views,
-            start,
-            self.options,
-            known,
-            self.memory,
-            self.pace,
-        )
-        .await
-    }
-
     /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
     /// pose, about both axes out of the image plane, it is tried whether another is there. Gives whether all that was tried
     /// led back: then no false minimum lies nearer either, it would have been met.
@@ -367,7 +352,9 @@ impl RivalRefinement<'_, '_> {
     /// Where a start leads: most lead to the best pose again, to within `back_deg`, or to a worse one.
     async fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Led {
         let known = |pose: &Pose| is_on_the_way(pose, &best.pose, back_deg);
-        let found = match self.look(start, &known).await {
+        let (model, views, options) = (self.model, self.views, self.options);
+        let looked = probe(model, views, start, options, &known, self.memory, self.pace);
+        let found = match looked.await {
             Ok(Some(found)) => found,
             Ok(None) => return Led::Back,
             Err(_) => return Led::Nowhere,

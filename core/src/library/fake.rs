@@ -155,7 +155,6 @@ mod tests {
                     prop_assert_eq!(library.record(view), plain.record(view));
                     prop_assert_eq!(library.pixels(view), plain.pixels(view));
                     prop_assert_eq!(library.overlap(view, 2), plain.overlap(view, 2));
-                    prop_assert_eq!(library.covered(view, &silhouette), plain.covered(view, &silhouette));
                 }
                 score(library, &silhouette, &mut turned, scores).expect("right lengths");
             }

@@ -3,7 +3,7 @@
 use super::compact::{Compact, Sketches};
 use super::error::{DISTANCE, LibraryError, X_ROTATIONS, Y_ROTATIONS};
 use super::info::{LibraryInfo, ViewGrid, ViewRecord};
-use super::runs::{bands, draw_runs, overlap, rows, spans};
+use super::runs::{bands, draw_runs, overlap};
 use super::wire::{
     Body, HEADER_BYTES, HEADER_CRC_AT, MAGIC, PLAIN_VERSION, RECORD_BYTES, Reader, VERSION,
     read_grid, read_record,
@@ -11,7 +11,7 @@ use super::wire::{
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
 use crate::checksum::checksum;
-use crate::image::mask::{MaskMut, WORD_BITS, Word};
+use crate::image::mask::{MaskMut, Word};
 
 /// A library read in place.
 #[derive(Clone, Copy, Debug)]
@@ -172,35 +172,15 @@ impl<'a> Library<'a> {
     /// Number of canonical pixels set in both of two views.
     #[must_use]
     pub(crate) fn overlap(&self, a: usize, b: usize) -> u32 {
+        if a == b {
+            return self.pixels(a);
+        }
         match &self.views {
             Views::Plain { .. } => {
                 let ours = words(self.bits(a)).zip(words(self.bits(b)));
                 ours.map(|(a, b)| (a & b).count_ones()).sum()
             }
             Views::Compact(compact) => overlap(compact.runs(a), compact.runs(b)),
-        }
-    }
-
-    /// Number of canonical pixels set in a view and in a canonical mask.
-    #[must_use]
-    pub(crate) fn covered(&self, view: usize, canonical: &[Word]) -> u32 {
-        match &self.views {
-            Views::Plain { .. } => {
-                let pairs = words(self.bits(view)).zip(canonical);
-                pairs.map(|(a, b)| (a & b).count_ones()).sum()
-            }
-            Views::Compact(compact) => {
-                let row_words = self.info.canonical.size() / WORD_BITS;
-                let rows = rows(compact.runs(view));
-                rows.map(|(row, pieces)| {
-                    let row = canonical.get(row * row_words..(row + 1) * row_words);
-                    let row = row.unwrap_or_default();
-                    let runs = spans(pieces);
-                    runs.map(|(start, end)| set_within(row, start, end))
-                        .sum::<u32>()
-                })
-                .sum()
-            }
         }
     }
 
@@ -291,23 +271,6 @@ fn within(value: f64, most: f64) -> bool {
 fn words(bytes: &[u8]) -> impl Iterator<Item = Word> + '_ {
     let four = bytes.as_chunks::<4>().0.iter();
     four.map(|&four| Word::from_le_bytes(four))
-}
-
-/// Bits set from column `start` to before `end` of a row.
-fn set_within(row: &[Word], start: usize, end: usize) -> u32 {
-    if start >= end {
-        return 0;
-    }
-    let (first, last) = (start / WORD_BITS, (end - 1) / WORD_BITS);
-    let head = Word::MAX << (start % WORD_BITS);
-    let tail = Word::MAX >> (WORD_BITS - 1 - (end - 1) % WORD_BITS);
-    let words = row.get(first..=last).unwrap_or_default().iter();
-    let ones = (first..).zip(words).map(|(at, &word)| {
-        let head = if at == first { head } else { Word::MAX };
-        let tail = if at == last { tail } else { Word::MAX };
-        (word & head & tail).count_ones()
-    });
-    ones.sum()
 }
 
 fn split_header(bytes: &[u8]) -> Result<(&[u8; HEADER_BYTES], &[u8]), LibraryError> {

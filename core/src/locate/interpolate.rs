@@ -36,8 +36,7 @@ pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch
     let library = search.library();
     let grid = &library.info().grid;
     let (x, y) = grid.place(candidate.view);
-    let canonical = search.query().canonical(candidate.reversed);
-    let [fine_x, fine_y] = bands::solve(library, canonical, (x, y)).unwrap_or_else(|| {
+    let [fine_x, fine_y] = bands::solve(search, candidate).unwrap_or_else(|| {
         let score = |view| search.score(view, candidate.reversed);
         let (dx, dy) = fit_minimum(grid, score, x, y);
         [x as f64 + dx, y as f64 + dy]
@@ -109,9 +108,10 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
         ..ViewRecord::default()
     };
     for v in rows.clone() {
+        let down = lagrange(&rows, v, place[1]);
         for u in columns.clone() {
             let record = library.record(grid.view(u, v));
-            let weight = lagrange(&columns, u, place[0]) * lagrange(&rows, v, place[1]);
+            let weight = lagrange(&columns, u, place[0]) * down;
             mean.scale += weight * record.scale;
             mean.angle += weight * wrap(record.angle - centre.angle, core::f64::consts::PI);
             mean.offset[0] += weight * record.offset[0];

@@ -76,13 +76,15 @@ impl Bounds {
 /// asked: where the box lies so near the origin that these are digits enough.
 fn farthest_squared(vertices: &[[f32; 3]], centre: &Vector3, [low, high]: [&[f32; 3]; 2]) -> f64 {
     let near = centre.map(|x| x as f32);
-    let reach = |k: usize| (high[k] - low[k], low[k].abs().max(high[k].abs()));
     // Of a difference that is more than a part in 256 of a number, rounding takes less than a part in 2^15.
-    let is_near = (0..3).all(|k| reach(k).0 * 256.0 > reach(k).1);
+    let is_near = low.iter().zip(high).all(|(low, high)| {
+        let farthest = low.abs().max(high.abs());
+        (high - low) * 256.0 > farthest
+    });
     let (mut most, mut likely) = (0.0f64, 0.0f32);
     for vertex in vertices {
-        let rough = (0..3).fold(0.0f32, |sum, k| {
-            let off = vertex[k] - near[k];
+        let rough = vertex.iter().zip(&near).fold(0.0f32, |sum, (at, near)| {
+            let off = at - near;
             sum + off * off
         });
         if is_near && rough < likely {

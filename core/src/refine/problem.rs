@@ -1,6 +1,8 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
+use core::future::{Future, poll_fn};
 use core::mem::swap;
+use core::task::Poll;
 
 use super::drawing::{Drawing, draw};
 use super::drawn::DrawnEdges;
@@ -149,10 +151,11 @@ impl<'a> Problem<'a> {
     }
 
     /// Before a drawing.
-    pub(super) async fn pause(&self) {
-        if let Some(pace) = self.pace {
-            pace.pause().await;
-        }
+    pub(super) fn pause(&self) -> impl Future<Output = ()> {
+        poll_fn(|context| match self.pace {
+            Some(pace) => pace.take(context),
+            None => Poll::Ready(()),
+        })
     }
 
     /// Whether it is known where a pose leads.

@@ -44,7 +44,17 @@ pub async fn refine_paced(
 ) -> Result<Refined, RefineError> {
     let mut problem = Problem::refining(model, views, start, options, memory)?;
     problem.pace = Some(pace);
-    from_start(&problem, start, options, memory, &mut |_| ()).await
+    let mut state = Refined::at(*start);
+    go(
+        &problem,
+        Part::All,
+        options,
+        &mut state,
+        memory,
+        &mut |_| (),
+    )
+    .await?;
+    Ok(state)
 }
 
 /// As [`refine`]; calls `trace` with the start and with every pose that is accepted on the way.
@@ -60,78 +70,31 @@ pub fn refine_traced(
     trace: &mut dyn FnMut(&Iterate),
 ) -> Result<Refined, RefineError> {
     let problem = Problem::refining(model, views, start, options, memory)?;
-    let work = from_start(&problem, start, options, memory, trace);
-    at_once(&Pace::new(), work)
+    let mut state = Refined::at(*start);
+    let work = go(&problem, Part::All, options, &mut state, memory, trace);
+    at_once(&Pace::new(), work)?;
+    Ok(state)
 }
 
-/// As [`refine_paced`]; `None` as soon as a pose is reached from which it is `known` where that leads.
+/// How much of the way is gone.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    All,
+    /// The first stage: where a start leads. The loss is that stage's.
+    First,
+    /// All stages but the first, which was gone before.
+    Rest,
+}
+
+/// A part of [`refine_paced`]'s way from where `begun` is; `None` as soon as a pose is reached from which it is `known` where
+/// that leads.
 ///
 /// # Errors
 /// [`RefineError`].
 pub(crate) async fn refine_unless(
-    model: &Model<'_>,
-    views: &[CameraView<'_>],
-    start: &Pose,
-    options: RefineOptions,
-    known: &dyn Fn(&Pose) -> bool,
-    memory: &mut RefineMemory<'_>,
-    pace: &Pace,
-) -> Result<Option<Refined>, RefineError> {
-    let mut problem = Problem::refining(model, views, start, options, memory)?;
-    (problem.known, problem.pace) = (Some(known), Some(pace));
-    let state = from_start(&problem, start, options, memory, &mut |_| ()).await?;
-    Ok((!problem.is_known(&state.pose)).then_some(state))
-}
-
-/// All stages.
-async fn from_start(
-    problem: &Problem<'_>,
-    start: &Pose,
-    options: RefineOptions,
-    memory: &mut RefineMemory<'_>,
-    trace: &mut dyn FnMut(&Iterate),
-) -> Result<Refined, RefineError> {
-    let (mut state, mut seen) = (Refined::at(*start), Seen::new());
-    let first = problem.first_pass();
-    problem
-        .run(&first, &mut state, &mut seen, memory, trace)
-        .await?;
-    go_on(problem, options, &mut state, &mut seen, memory, trace).await?;
-    Ok(state)
-}
-
-/// The first stage of [`refine`]: where `start` leads; `None` as soon as a pose is reached from which that is `known`. The
-/// loss is that stage's.
-///
-/// # Errors
-/// [`RefineError`].
-pub(crate) async fn begin(
-    model: &Model<'_>,
-    views: &[CameraView<'_>],
-    start: &Pose,
-    options: RefineOptions,
-    known: &dyn Fn(&Pose) -> bool,
-    memory: &mut RefineMemory<'_>,
-    pace: &Pace,
-) -> Result<Option<Refined>, RefineError> {
-    let mut problem = Problem::refining(model, views, start, options, memory)?;
-    (problem.known, problem.pace) = (Some(known), Some(pace));
-    let (mut state, mut seen) = (Refined::at(*start), Seen::new());
-    let first = problem.first_pass();
-    problem
-        .run(&first, &mut state, &mut seen, memory, &mut |_| ())
-        .await?;
-    Ok((!problem.is_known(&state.pose)).then_some(state))
-}
-
-/// What [`refine`] makes of a start whose first stage [`begin`] has gone; `None` as soon as a pose is reached that is `known`.
-///
-/// # Errors
-/// [`RefineError`].
-pub(crate) async fn finish(
-    model: &Model<'_>,
-    views: &[CameraView<'_>],
+    (model, views): (&Model<'_>, &[CameraView<'_>]),
     begun: &Refined,
+    part: Part,
     options: RefineOptions,
     known: &dyn Fn(&Pose) -> bool,
     memory: &mut RefineMemory<'_>,
@@ -139,23 +102,29 @@ pub(crate) async fn finish(
 ) -> Result<Option<Refined>, RefineError> {
     let mut problem = Problem::refining(model, views, &begun.pose, options, memory)?;
     (problem.known, problem.pace) = (Some(known), Some(pace));
-    let (mut state, mut seen) = (*begun, Seen::new());
-    let trace = &mut |_: &Iterate| ();
-    go_on(&problem, options, &mut state, &mut seen, memory, trace).await?;
+    let mut state = *begun;
+    go(&problem, part, options, &mut state, memory, &mut |_| ()).await?;
     Ok((!problem.is_known(&state.pose)).then_some(state))
 }
 
-/// All stages but the first, whose end `seen` is where it is at hand.
-async fn go_on(
+/// A part of the stages.
+async fn go(
     problem: &Problem<'_>,
+    part: Part,
     options: RefineOptions,
     state: &mut Refined,
-    seen: &mut Seen,
     memory: &mut RefineMemory<'_>,
     trace: &mut dyn FnMut(&Iterate),
 ) -> Result<(), RefineError> {
-    let Pass { drawn, .. } = problem.first_pass();
+    let seen = &mut Seen::new();
     let mut pass = problem.first_pass();
+    let drawn = pass.drawn;
+    if part != Part::Rest {
+        problem.run(&pass, state, seen, memory, trace).await?;
+    }
+    if part == Part::First {
+        return Ok(());
+    }
     for index in 1..STAGES {
         if problem.is_known(&state.pose) {
             return Ok(());

@@ -5,15 +5,15 @@
 //! been found already are compared in full. The answers are those of comparing every view, ties
 //! included. In a plain library, which has no sketches, every view is compared.
 
-use heapless::Vec;
+use heapless::{Vec, VecView};
 
 use crate::canonical::CanonicalSpec;
 use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, bound, longest_sketch};
-use crate::search::scores::{MatchError, ViewMatch, neighbours, scores_needed};
-use crate::shortlist::{keep, smallest};
+use crate::search::scores::{MatchError, ViewMatch, neighbours, rows_around, scores_needed};
+use crate::shortlist::keep;
 
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
@@ -96,13 +96,13 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return;
         };
         let stride = sketches.stride();
-        let ours = memory.get_mut(..stride).unwrap_or_default();
+        let ours = memory.get_mut(..sketches.compared()).unwrap_or_default();
         let views = self.library.views().max(1);
         for (reversed, bounds) in [false, true].into_iter().zip(self.bounds.chunks_mut(views)) {
             let base = self
                 .query
                 .sketch_for(&sketches, reversed, &self.kernels, ours);
-            bound(ours, sketches.all, base, &self.kernels, bounds);
+            bound(ours, sketches.all, stride, base, &self.kernels, bounds);
         }
     }
 
@@ -155,11 +155,6 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         bound.map_or(u32::MAX, |bound| bound & !EXACT)
     }
 
-    fn known(&self, view: usize, reversed: bool) -> Option<u32> {
-        let known = self.bounds.get(self.place(view, reversed))?;
-        (known & EXACT != 0).then_some(known & !EXACT)
-    }
-
     fn place(&self, view: usize, reversed: bool) -> usize {
         let views = self.library.views();
         if view >= views {
@@ -180,31 +175,38 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
     /// straight direction first.
     pub fn best<const K: usize>(&mut self, directions: Directions) -> Vec<ViewMatch, K> {
+        let mut best = Vec::new();
+        self.add_best(directions, &mut best);
+        best
+    }
+
+    fn add_best(&mut self, directions: Directions, candidates: &mut VecView<ViewMatch>) {
         let places = match directions {
             Directions::Straight => self.library.views(),
             Directions::Both => scores_needed(self.library.views()),
         };
-        let mut best = Shortlist::up_to(u32::MAX);
+        let mut best = Shortlist::up_to(u32::MAX, candidates);
         // The least bound first: what it turns out to be rules most of the others out.
         let bounds = self.bounds.iter().take(places).enumerate();
         let least = bounds.min_by_key(|(_, bound)| **bound & !EXACT);
         let Some(first) = least.map(|(place, _)| place) else {
-            return best.candidates;
+            return;
         };
         best.offer(self.candidate(first));
         for place in 0..places {
-            if self.at_least_at(place) <= best.limit() && place != first {
+            if self.at_least_at(place) <= best.limit && place != first {
                 let candidate = self.candidate(place);
                 best.offer(candidate);
             }
         }
-        best.candidates
     }
 
     /// The best `K` local minima of the score surfaces, both directions: views that none of their
     /// eight neighbours beats. These are the rival poses; the views beside a minimum are not.
     pub fn minima<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
-        self.minima_up_to(u32::MAX)
+        let mut minima = Vec::new();
+        self.add_minima(u32::MAX, &mut minima);
+        minima
     }
 
     /// The best `K` of these minima whose unmatched pixels exceed the best one's by no more than four steps of the grid
@@ -216,29 +218,29 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return Vec::new();
         };
         let library = self.library;
+        let own = library.pixels(best.view);
         let step = neighbours(&library.info().grid, best.view)
-            .map(|near| {
-                let pixels = library.pixels(best.view) + library.pixels(near);
-                pixels - 2 * library.overlap(best.view, near)
-            })
+            .map(|near| own + library.pixels(near) - 2 * library.overlap(best.view, near))
             .max();
         let beyond = step.map_or(u32::MAX, |step| RIVAL_STEPS.saturating_mul(step));
-        self.minima_up_to(best.unmatched.saturating_add(beyond))
+        let mut rivals = Vec::new();
+        self.add_minima(best.unmatched.saturating_add(beyond), &mut rivals);
+        rivals
     }
 
-    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<ViewMatch, K> {
+    fn add_minima(&mut self, most: u32, candidates: &mut VecView<ViewMatch>) {
         let places = scores_needed(self.library.views());
-        let mut minima = Shortlist::up_to(most);
+        let mut minima = Shortlist::up_to(most, candidates);
         // Going downhill from the least of the bounds' own minima finds most of them: a limit for the rest.
         for (bound, place) in self.promising(most) {
-            if bound <= minima.limit() {
+            if bound <= minima.limit {
                 let (view, reversed) = self.apart(place);
                 let candidate = self.descend(view, reversed);
                 minima.offer(candidate);
             }
         }
         for place in 0..places {
-            if self.at_least_at(place) > minima.limit() {
+            if self.at_least_at(place) > minima.limit {
                 continue;
             }
             let (view, reversed) = self.apart(place);
@@ -247,24 +249,20 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
                 minima.offer(candidate);
             }
         }
-        minima.candidates
     }
 
     /// The least minima of the bounds, up to a limit, with their places.
     fn promising(&self, most: u32) -> Vec<(u32, usize), DESCENTS> {
         let mut least: Vec<(u32, usize), DESCENTS> = Vec::new();
         let mut limit = most;
-        for place in 0..scores_needed(self.library.views()) {
-            let bound = self.at_least_at(place);
-            if bound > limit {
+        for (place, bound) in self.bounds.iter().enumerate() {
+            let bound = bound & !EXACT;
+            if bound > limit || !self.is_minimum_of_bounds(place, bound) {
                 continue;
             }
-            let (view, reversed) = self.apart(place);
-            if self.is_minimum_of_bounds(view, reversed) {
-                keep(&mut least, (bound, place), |&(bound, _)| bound);
-                if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
-                    limit = most.min(last);
-                }
+            keep(&mut least, (bound, place), |&(bound, _)| bound);
+            if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
+                limit = most.min(last);
             }
         }
         least
@@ -277,10 +275,41 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         }
     }
 
-    fn is_minimum_of_bounds(&self, view: usize, reversed: bool) -> bool {
-        let bound = self.at_least(view, reversed);
-        neighbours(&self.library.info().grid, view)
-            .all(|neighbour| bound <= self.at_least(neighbour, reversed))
+    fn is_minimum_of_bounds(&self, place: usize, bound: u32) -> bool {
+        let (view, reversed) = self.apart(place);
+        let mut rows = self.around(view, reversed);
+        rows.all(|(_, row)| row.iter().all(|other| bound <= other & !EXACT))
+    }
+
+    /// The rows of bounds of the views around one, itself among them, each with the number of its first view.
+    fn around(&self, view: usize, reversed: bool) -> impl Iterator<Item = (usize, &[u32])> {
+        let views = self.library.views();
+        let surfaces = self.bounds.split_at_checked(views).unwrap_or_default();
+        let surface = if reversed { surfaces.1 } else { surfaces.0 };
+        let rows = rows_around(&self.library.info().grid, view);
+        rows.filter_map(|row| Some((row.start, surface.get(row)?)))
+    }
+
+    /// Whether a neighbour is known to have fewer unmatched pixels.
+    fn has_known_below(&self, pixels: u32, view: usize, reversed: bool) -> bool {
+        // The number of such a one lies between its mark alone and this.
+        let is_below = |known: &u32| (EXACT..EXACT | pixels).contains(known);
+        let mut rows = self.around(view, reversed);
+        rows.any(|(_, row)| row.iter().any(is_below))
+    }
+
+    /// The neighbour with the least bound, the first of equals, and that bound.
+    fn likeliest_neighbour(&self, view: usize, reversed: bool) -> (u32, usize) {
+        let mut least = (u32::MAX, view);
+        for (first, row) in self.around(view, reversed) {
+            for (neighbour, bound) in (first..).zip(row) {
+                let bound = bound & !EXACT;
+                if bound < least.0 && neighbour != view {
+                    least = (bound, neighbour);
+                }
+            }
+        }
+        least
     }
 
     /// The local minimum that descent over neighbours leads to.
@@ -299,66 +328,54 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn is_minimum(&mut self, view: usize, reversed: bool) -> bool {
         // Where a neighbour is known to beat even the bound, the view need not be compared.
         let bound = self.at_least(view, reversed);
-        let grid = &self.library.info().grid;
-        let beaten = neighbours(grid, view).any(|neighbour| {
-            let known = self.known(neighbour, reversed);
-            known.is_some_and(|known| known < bound)
-        });
-        if beaten {
+        if self.has_known_below(bound, view, reversed) {
             return false;
         }
         // Otherwise the likeliest neighbour is compared first: it beats other views around it, too.
-        let least = neighbours(grid, view).min_by_key(|&near| self.at_least(near, reversed));
-        let beaten = least.is_some_and(|least| {
-            self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
-        });
+        let (least, neighbour) = self.likeliest_neighbour(view, reversed);
+        let beaten = least < bound && self.score(neighbour, reversed) < bound;
         !beaten && self.better_neighbour(view, reversed).is_none()
     }
 
-    /// The neighbour that beats a view, if one does: that with the least bound is compared first. Of equal neighbours
+    /// A neighbour that beats a view, if one does: that with the least bound is compared first. Of equal neighbours
     /// the first beats.
     fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
-        let score = self.score(view, reversed);
-        let library = self.library;
-        let key = |&neighbour: &usize| (self.at_least(neighbour, reversed), neighbour);
-        let near: Vec<usize, 8> = smallest(neighbours(&library.info().grid, view), key);
-        near.iter().copied().find(|&neighbour| {
-            self.at_least(neighbour, reversed) <= score
-                && (self.score(neighbour, reversed), neighbour) < (score, view)
-        })
-    }
-}
-
-/// The best `K` candidates so far, best first.
-struct Shortlist<const K: usize> {
-    candidates: Vec<ViewMatch, K>,
-    /// Unmatched pixels that are too many in any case are more than this.
-    most: u32,
-}
-
-impl<const K: usize> Shortlist<K> {
-    fn up_to(most: u32) -> Self {
-        Self {
-            candidates: Vec::new(),
-            most,
+        let own = (self.score(view, reversed), view);
+        loop {
+            let (bound, neighbour) = self.likeliest_neighbour(view, reversed);
+            if (bound, neighbour) > own {
+                return None;
+            }
+            if (self.score(neighbour, reversed), neighbour) < own {
+                return Some(neighbour);
+            }
         }
     }
+}
 
+/// The best candidates so far, as many as there is room for, best first. One function for lists of all lengths, because a microcontroller would have it for
+/// each.
+struct Shortlist<'v> {
+    candidates: &'v mut VecView<ViewMatch>,
     /// What has more unmatched pixels than this is none of the best.
-    fn limit(&self) -> u32 {
-        match self.candidates.last() {
-            Some(last) if self.candidates.is_full() => last.unmatched.min(self.most),
-            // A list without room has no best.
-            None if K == 0 => 0,
-            _ => self.most,
-        }
+    limit: u32,
+}
+
+impl<'v> Shortlist<'v> {
+    fn up_to(most: u32, candidates: &'v mut VecView<ViewMatch>) -> Self {
+        // A list without room has no best.
+        let limit = if candidates.is_full() { 0 } else { most };
+        Self { candidates, limit }
     }
 
     /// Takes a candidate in its place, once.
     fn offer(&mut self, candidate: ViewMatch) {
         let key = |one: &ViewMatch| (one.unmatched, one.reversed, one.view);
-        if candidate.unmatched <= self.most && !self.candidates.contains(&candidate) {
-            keep(&mut self.candidates, candidate, key);
+        if candidate.unmatched <= self.limit && !self.candidates.contains(&candidate) {
+            keep(self.candidates, candidate, key);
+        }
+        if let (true, Some(last)) = (self.candidates.is_full(), self.candidates.last()) {
+            self.limit = last.unmatched;
         }
     }
 }

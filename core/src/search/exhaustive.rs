@@ -27,9 +27,13 @@ pub(crate) fn score<'s>(
     let canonical = canonical.get(..words).unwrap_or_default();
     let rotated = first("words of working memory", words, rotated)?;
     reverse(canonical, rotated);
-    let area: u32 = canonical.iter().map(|word| word.count_ones()).sum();
     Scores::fill(library, scores, |view, reversed| {
         let ours = if reversed { &*rotated } else { canonical };
-        area + library.pixels(view) - 2 * library.covered(view, ours)
+        let mut drawn = std::vec![0; words];
+        library.draw(view, &mut drawn);
+        let pairs = ours.iter().zip(&drawn);
+        pairs
+            .map(|(ours, theirs)| (ours ^ theirs).count_ones())
+            .sum()
     })
 }

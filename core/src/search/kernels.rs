@@ -5,6 +5,8 @@
 
 use crate::image::mask::Word;
 
+/// The kind of [`distances`].
+pub type Distances = fn(&[u8], &[u8], usize, u32, &mut [u32]);
 /// The kind of [`gap`].
 pub type Gap = fn([&[u8]; 2], [&[u8]; 2]) -> u32;
 
@@ -16,7 +18,7 @@ pub struct Kernels {
     /// See [`unmatched`].
     pub unmatched: fn(&[Word], &[u8]) -> u32,
     /// See [`distances`].
-    pub distances: fn(&[u8], &[u8], u32, &mut [u32]),
+    pub distances: Distances,
     /// See [`gap`].
     pub gap: Gap,
 }
@@ -59,15 +61,13 @@ pub fn unmatched(words: &[Word], bytes: &[u8]) -> u32 {
 /// a fifth faster.
 const LANES: usize = 32;
 
-/// Writes `base` and the sum of the bytes' differences between `sketch` and each of the `sketches`
-/// of the same length that follow one another.
+/// Writes `base` and the sum of the bytes' differences between `sketch` and the beginning of each of the `sketches`,
+/// which are `stride` bytes apart.
 #[inline(always)]
-pub fn distances(sketch: &[u8], sketches: &[u8], base: u32, out: &mut [u32]) {
+pub fn distances(sketch: &[u8], sketches: &[u8], stride: usize, base: u32, out: &mut [u32]) {
     let ours = sketch.as_chunks::<LANES>();
-    for (out, other) in out
-        .iter_mut()
-        .zip(sketches.chunks_exact(sketch.len().max(1)))
-    {
+    for (out, other) in out.iter_mut().zip(sketches.chunks_exact(stride.max(1))) {
+        let other = other.get(..sketch.len()).unwrap_or_default();
         if cfg!(target_os = "none") {
             // A machine without wide instructions has nothing of blocks.
             *out = base + difference(sketch, other);
@@ -89,6 +89,9 @@ fn difference(a: &[u8], b: &[u8]) -> u32 {
 #[inline(always)]
 #[must_use]
 pub fn gap([low, high]: [&[u8]; 2], [other_low, other_high]: [&[u8]; 2]) -> u32 {
+    if cfg!(target_os = "none") {
+        return excess(low, high, other_low, other_high);
+    }
     let (a, b) = (low.as_chunks::<LANES>(), high.as_chunks::<LANES>());
     let (c, d) = (
         other_low.as_chunks::<LANES>(),
@@ -132,12 +135,14 @@ mod tests {
         #[test]
         fn distances_are_sums_of_differences(
             length in 1..100usize,
+            padding in 0..30usize,
             bytes in proptest::collection::vec(any::<u8>(), 500)
         ) {
             let (sketch, sketches) = bytes.split_at(length);
-            let mut out = [u32::MAX; 4];
-            distances(sketch, sketches, 7, &mut out);
-            for (out, other) in out.iter().zip(sketches.chunks(length)) {
+            let stride = length + padding;
+            let mut out = [u32::MAX; 3];
+            distances(sketch, sketches, stride, 7, &mut out);
+            for (out, other) in out.iter().zip(sketches.chunks(stride)) {
                 let naive: i32 = sketch
                     .iter()
                     .zip(other)

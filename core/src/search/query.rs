@@ -2,7 +2,7 @@
 
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{WORD_BITS, Word};
-use crate::library::runs::bands;
+use crate::library::runs::{Band, bands};
 use crate::library::sketch::{BLOCK, STRIDE, at_most_255, blocks};
 use crate::library::{Library, Sketches};
 use crate::memory::{TooLittleMemory, check_length, first};
@@ -95,7 +95,7 @@ impl<'m> Query<'m> {
             return (kernels.unmatched)(self.canonical(reversed), library.bits(view));
         }
         let runs = library.runs(view);
-        let (pixels, common) = if reversed {
+        let Covered { pixels, common } = if reversed {
             self.covered::<true>(runs)
         } else {
             self.covered::<false>(runs)
@@ -104,24 +104,26 @@ impl<'m> Query<'m> {
     }
 
     /// Pixels of the runs, and how many of them are the silhouette's.
-    fn covered<const REVERSED: bool>(&self, runs: &[u8]) -> (u32, u32) {
-        let before = self.before;
-        let mut sum = Covered::default();
+    fn covered<const REVERSED: bool>(&self, runs: &[u8]) -> Covered {
+        let size = self.spec.size();
+        let mut all = Covered::default();
         for band in bands(runs) {
-            let start = band.first_row * self.spec.size();
+            let rows = Counts {
+                before: self.before,
+                first: band.first_row * size,
+                size,
+            };
             // Nearly all rows of nearly all views have one or two runs.
-            match band.per_row {
-                1 => sum.add::<REVERSED, 1>(before, self.spec.size(), start, band.pieces),
-                2 => sum.add::<REVERSED, 2>(before, self.spec.size(), start, band.pieces),
-                _ => {
-                    for (row, pieces) in band.rows() {
-                        let start = row * self.spec.size();
-                        sum.add_row::<REVERSED>(before, start, pieces);
-                    }
-                }
-            }
+            let own = match band.per_row {
+                1 => rows.of_single_runs::<REVERSED>(band.pieces.as_chunks().0),
+                2 => rows.of_double_runs::<REVERSED>(band.pieces.as_chunks().0),
+                _ => None,
+            };
+            let own = own.unwrap_or_else(|| rows.of_any_runs::<REVERSED>(band));
+            all.pixels += own.pixels;
+            all.common += own.common;
         }
-        (sum.pixels, sum.common)
+        all
     }
 
     /// The blocks that a library's sketches have; returns what the others differ by in every view. `out` gets the
@@ -164,46 +166,105 @@ struct Covered {
     common: u32,
 }
 
-impl Covered {
-    /// Rows of `PER_ROW` runs each, `size` pixels apart.
-    #[inline(always)]
-    fn add<const REVERSED: bool, const PER_ROW: usize>(
-        &mut self,
-        before: &[u8],
-        size: usize,
-        start: usize,
-        pieces: &[[u8; 2]],
-    ) {
-        let mut start = start;
-        for row in pieces.as_chunks::<PER_ROW>().0 {
-            self.add_row::<REVERSED>(before, start, row);
-            start += size;
+/// How many pixels are set before each, from a row on. In the reversed direction pixels are counted from the end.
+#[derive(Clone, Copy)]
+struct Counts<'a> {
+    before: &'a [u8],
+    /// The first pixel of the row that is looked at.
+    first: usize,
+    size: usize,
+}
+
+/// More pixels than a row of one run, or of two, reaches: where so many are left, none has to be asked whether it is there.
+const SINGLE: usize = 2 * 255 + 1;
+const DOUBLE: usize = 4 * 255 + 1;
+
+impl<'a> Counts<'a> {
+    /// Of rows of one run each; `None` where that has to be asked.
+    #[cfg_attr(target_os = "none", inline(never))]
+    fn of_single_runs<const REVERSED: bool>(mut self, rows: &[[[u8; 2]; 1]]) -> Option<Covered> {
+        let (mut pixels, mut common) = (0, 0);
+        for &[[gap, length]] in rows {
+            let counts = self.next::<REVERSED, SINGLE>()?;
+            let start = usize::from(gap);
+            pixels += u32::from(length);
+            common += set_within::<REVERSED>(counts, start, start + usize::from(length));
         }
+        Some(Covered { pixels, common })
     }
 
-    /// A row that starts at the pixel `start`. In the reversed direction pixels are counted from the end.
-    #[inline(always)]
-    fn add_row<const REVERSED: bool>(&mut self, before: &[u8], start: usize, row: &[[u8; 2]]) {
-        let last = before.len().wrapping_sub(1);
-        let count = |at: usize| {
-            let at = if REVERSED { last.wrapping_sub(at) } else { at };
-            before.get(at).copied().unwrap_or(0)
-        };
-        let mut at = start;
-        for &[gap, pixels] in row {
-            at += usize::from(gap);
-            let from = count(at);
-            at += usize::from(pixels);
-            let to = count(at);
-            let set = if REVERSED {
-                from.wrapping_sub(to)
-            } else {
-                to.wrapping_sub(from)
-            };
-            self.pixels += u32::from(pixels);
-            self.common += u32::from(set);
+    /// The same of two.
+    #[cfg_attr(target_os = "none", inline(never))]
+    fn of_double_runs<const REVERSED: bool>(mut self, rows: &[[[u8; 2]; 2]]) -> Option<Covered> {
+        let (mut pixels, mut common) = (0, 0);
+        for &[[gap, length], [next_gap, next_length]] in rows {
+            let counts = self.next::<REVERSED, DOUBLE>()?;
+            let start = usize::from(gap);
+            let end = start + usize::from(length);
+            let next_start = end + usize::from(next_gap);
+            pixels += u32::from(length) + u32::from(next_length);
+            common += set_within::<REVERSED>(counts, start, end);
+            let next_end = next_start + usize::from(next_length);
+            common += set_within::<REVERSED>(counts, next_start, next_end);
         }
+        Some(Covered { pixels, common })
     }
+
+    /// Of rows of any number of runs.
+    #[cfg_attr(target_os = "none", inline(never))]
+    fn of_any_runs<const REVERSED: bool>(self, band: Band<'_>) -> Covered {
+        let (mut pixels, mut common) = (0, 0);
+        let mut first = self.first;
+        for row in band.rows_of_pieces() {
+            let mut at = first;
+            for &[gap, length] in row {
+                let start = at + usize::from(gap);
+                at = start + usize::from(length);
+                pixels += u32::from(length);
+                common += set_within::<REVERSED>(self.before, start, at);
+            }
+            first += self.size;
+        }
+        Covered { pixels, common }
+    }
+
+    /// The counts from the row's beginning on, and on to the next row.
+    #[inline(always)]
+    fn next<const REVERSED: bool, const AHEAD: usize>(&mut self) -> Option<&'a [u8; AHEAD]> {
+        let counts = if REVERSED {
+            let end = self.before.len().checked_sub(self.first)?;
+            self.before.get(..end)?.last_chunk()?
+        } else {
+            self.before.get(self.first..)?.first_chunk()?
+        };
+        self.first += self.size;
+        Some(counts)
+    }
+}
+
+/// Set pixels from one to before another.
+#[inline(always)]
+fn set_within<const REVERSED: bool>(counts: &[u8], start: usize, end: usize) -> u32 {
+    let (from, to) = (
+        count::<REVERSED>(counts, start),
+        count::<REVERSED>(counts, end),
+    );
+    let set = if REVERSED {
+        from.wrapping_sub(to)
+    } else {
+        to.wrapping_sub(from)
+    };
+    u32::from(set)
+}
+
+#[inline(always)]
+fn count<const REVERSED: bool>(counts: &[u8], at: usize) -> u8 {
+    let at = if REVERSED {
+        counts.len().wrapping_sub(at + 1)
+    } else {
+        at
+    };
+    counts.get(at).copied().unwrap_or(0)
 }
 
 /// The words of one canonical mask.
@@ -288,11 +349,12 @@ fn ones_of_halves(word: Word) -> Word {
     (eights + (eights >> 8)) & 0x00ff_00ff
 }
 
-/// Bounds of views whose sketches follow one another: `base` and how far they are from what
+/// Bounds of views whose sketches follow one another, `stride` bytes each: `base` and how far they are from what
 /// [`Query::sketch_for`] gathered.
 pub(super) fn bound(
     gathered: &[u8],
     sketches: &[u8],
+    stride: usize,
     base: u32,
     kernels: &Kernels,
     bounds: &mut [u32],
@@ -300,7 +362,7 @@ pub(super) fn bound(
     if gathered.is_empty() {
         bounds.fill(base);
     } else {
-        (kernels.distances)(gathered, sketches, base, bounds);
+        (kernels.distances)(gathered, sketches, stride, base, bounds);
     }
 }
 

@@ -1,5 +1,7 @@
 //! The score surface: unmatched pixels of every view, and the views that fit.
 
+use core::ops::Range;
+
 use heapless::Vec;
 use thiserror::Error;
 
@@ -46,59 +48,60 @@ pub const fn scores_needed(views: usize) -> usize {
     2 * views
 }
 
-/// The eight views around a view of a grid, or as many as there are, row by row.
-pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> Neighbours {
+/// The views around a view of a grid and itself, up to nine, row by row in rising order.
+pub(crate) fn rows_around(grid: &ViewGrid, view: usize) -> RowsAround {
     let (x, y) = grid.place(view);
     let last = grid.y.count.saturating_sub(1);
     // A row before the first is the last where the grid goes all around, else there is none.
     let around = (y == 0 || y == last) && grid.is_around();
-    let above = y.checked_sub(1).or(around.then_some(last));
-    let below = if y < last {
-        Some(y + 1)
-    } else {
-        around.then_some(0)
+    let beyond = |row: usize| if around { row } else { NO_ROW };
+    let rows = match y {
+        0 => [0, if last > 0 { 1 } else { NO_ROW }, beyond(last)],
+        _ if y == last => [beyond(0), y - 1, y],
+        _ => [y - 1, y, y + 1],
     };
     let left = x.saturating_sub(1);
-    Neighbours {
-        view,
-        starts: [above, Some(y), below].map(|row| row.map_or(NO_ROW, |row| grid.view(left, row))),
-        row: 0,
-        column: 0,
+    RowsAround {
+        rows,
+        at: 0,
+        left,
+        across: grid.x.count,
         columns: (x + 2).min(grid.x.count) - left,
     }
 }
 
-/// Where a row starts that there is not.
+/// The number of a row that there is not.
 const NO_ROW: usize = usize::MAX;
 
-/// See [`neighbours`].
+/// See [`rows_around`].
 #[derive(Clone, Debug)]
-pub(crate) struct Neighbours {
-    view: usize,
-    /// The first neighbour of each row.
-    starts: [usize; 3],
-    row: usize,
-    column: usize,
+pub(crate) struct RowsAround {
+    rows: [usize; 3],
+    at: usize,
+    left: usize,
+    across: usize,
     columns: usize,
 }
 
-impl Iterator for Neighbours {
-    type Item = usize;
+impl Iterator for RowsAround {
+    type Item = Range<usize>;
 
-    fn next(&mut self) -> Option<usize> {
+    fn next(&mut self) -> Option<Range<usize>> {
         loop {
-            let start = *self.starts.get(self.row)?;
-            if self.column == self.columns || start == NO_ROW {
-                (self.row, self.column) = (self.row + 1, 0);
-                continue;
-            }
-            let neighbour = start + self.column;
-            self.column += 1;
-            if neighbour != self.view {
-                return Some(neighbour);
+            let row = *self.rows.get(self.at)?;
+            self.at += 1;
+            if row != NO_ROW {
+                let start = row * self.across + self.left;
+                return Some(start..start + self.columns);
             }
         }
     }
+}
+
+/// The eight views around a view of a grid, or as many as there are.
+pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> impl Iterator<Item = usize> {
+    let near = rows_around(grid, view).flatten();
+    near.filter(move |&neighbour| neighbour != view)
 }
 
 impl<'a> Scores<'a> {

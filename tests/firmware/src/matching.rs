@@ -6,6 +6,7 @@ use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::crop::Crop;
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, LocatedPoses, canonical_form, locate_form};
+use fluoropose_kernels::fastest;
 
 use crate::failure::Failure;
 use crate::inputs::LIBRARY;
@@ -64,6 +65,7 @@ pub(crate) fn pose_of(
     let crop = Crop::around_outline(&outline, 0, frame)?;
     let camera = camera.cropped(&crop)?;
     let (pixels, mut work) = memory.borrow();
+    work.kernels = fastest();
     let mask = crop.fill_outline(&outline, pixels)?;
     stage("silhouette filled");
 

@@ -192,7 +192,7 @@ impl<const K: usize> BestFirst<'_, K> {
             return;
         };
         let stride = sketches.stride();
-        let ours = &mut self.leaf[..stride];
+        let ours = &mut self.leaf[..sketches.compared()];
         let base = self
             .query
             .sketch_for(&sketches, reversed, self.kernels, ours);
@@ -200,7 +200,7 @@ impl<const K: usize> BestFirst<'_, K> {
             let mut bounds = [0; PATCH];
             let bounds = &mut bounds[..row.len()];
             let views = sketches.of_row(&row);
-            bound(ours, views, base, self.kernels, bounds);
+            bound(ours, views, stride, base, self.kernels, bounds);
             for (view, &bound) in row.zip(&*bounds) {
                 if bound > self.found.limit() {
                     continue;
