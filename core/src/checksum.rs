@@ -79,7 +79,7 @@ mod tests {
     use crc::{CRC_32_ISO_HDLC, Crc};
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn it_is_the_sum_that_others_make(
             bytes in proptest::collection::vec(any::<u8>(), 0..200),

@@ -28,6 +28,10 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+#[cfg(test)]
+#[macro_use]
+mod properties;
+
 mod checksum;
 pub mod memory;
 pub mod pace;

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn the_smallest_are_the_head_of_the_sorted_list(
             keys in proptest::collection::vec(0u8..9, 0..40)

@@ -28,8 +28,8 @@ const SAME = 1e-6;
 /** @typedef {{ kind: string, part: number, frame: number, pose: number[] | null }} Searched numbers of the matrix row by row, then of the shift */
 
 test('page and command find the same from nothing', { timeout: 3 * PATIENCE }, async (t) => {
-  const frames = await drawnFilm();
-  const byCommand = searchedByCommand(await tracked(frames));
+  const { frames, written } = await trackedFilm();
+  const byCommand = searchedByCommand(written);
   const inWorkers = await searchedInWorkers(frames);
   t.diagnostic(byCommand.map(({ kind, part, frame, pose }) => `${kind} ${part} in frame ${frame}: ${pose ? 'found' : 'nothing'}`).join(', '));
   const order = (/** @type {Searched[]} */ all) => all.map(({ kind, part, frame, pose }) => [kind, part, frame, pose !== null]);
@@ -40,8 +40,7 @@ test('page and command find the same from nothing', { timeout: 3 * PATIENCE }, a
 
 if (!IN_FIREFOX) {
   pageTest('page and command trust the same frames, from nothing', async (page, t) => {
-    const frames = await drawnFilm();
-    const { table } = await tracked(frames);
+    const { frames, written: { table } } = await trackedFilm();
     const rows = table.trim().split('\n').slice(1).map((line) => line.replaceAll('"', '').split(','));
     const byCommand = rows.map(([frame, component, , verdict]) => `frame ${frame}, ${component}: ${verdict}`);
     const pictures = frames.map((data, number) => file(`${number}.png`, pictureOf(data)));
@@ -62,8 +61,17 @@ if (!IN_FIREFOX) {
   });
 }
 
-function drawnFilm() {
-  return Promise.all(Array.from({ length: FRAMES }, (_, frame) => drawn(frame)));
+/** @type {ReturnType<typeof drawnAndTracked> | undefined} */
+let drawnOnce;
+
+/** The film, and what the command writes of it: once for all tests. */
+function trackedFilm() {
+  return (drawnOnce ??= drawnAndTracked());
+}
+
+async function drawnAndTracked() {
+  const frames = await Promise.all(Array.from({ length: FRAMES }, (_, frame) => drawn(frame)));
+  return { frames, written: await tracked(frames) };
 }
 
 /** @param {Uint8Array} data */

@@ -15,7 +15,8 @@ import { picturesOf } from './support/video.mjs';
 /** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
 /** @typedef {import('fast-png').DecodedPng} Picture */
 
-const FRAMES = 8;
+/** Of the demonstration; the whole of it is followed in `following.test.mjs`. */
+const FRAMES = 4;
 
 pageTest('what is published', async (page, t) => {
   await followed(page);
@@ -57,7 +58,7 @@ pageTest('what is published', async (page, t) => {
 
 /** Both components clicked, and the film followed. @param {Page} page */
 async function followed(page) {
-  await tracing.openDemonstration(page);
+  await tracing.openDemonstration(page, FRAMES);
   const stage = new Stage(page);
   await stage.learn();
   for (const component of /** @type {const} */ (['femur', 'tibia'])) await stage.click(tracing.insideOf(await trueOutline(component, 1)));

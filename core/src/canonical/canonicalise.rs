@@ -115,7 +115,7 @@ mod tests {
         a.iter().zip(b).map(|(a, b)| (a ^ b).count_ones()).sum()
     }
 
-    proptest! {
+    properties! {
         /// The stated bound of invariance: 250 of 15 000 pixels for shapes of at least 90
         /// pixels half length (half a pixel along a border of about 500).
         #[test]

@@ -93,7 +93,7 @@ mod tests {
     use crate::image::mask::{MaskMut, words_needed};
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn cells_are_mixed_where_their_pixels_differ(
             width in 1..100usize,

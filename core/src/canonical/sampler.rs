@@ -214,7 +214,7 @@ mod tests {
         Ok(())
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn a_silhouette_holds_what_its_pixels_are_one_by_one(
             solid in (0..WIDTH, 0..WIDTH, 0..HEIGHT, 0..HEIGHT),

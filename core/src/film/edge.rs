@@ -148,7 +148,7 @@ mod tests {
         edge_of(&film.shown(paths), expected)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn one_filter_finds_what_blur_and_derivative_find(
             steps in proptest::collection::vec((0..55usize, 0.05..20.0f32), 1..6),
@@ -175,7 +175,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         /// A rim that grows to its thickness, and metal up to nine times as thick farther in than the filter looks.
         #[test]
         fn what_lies_far_inside_moves_no_edge(

@@ -224,7 +224,7 @@ mod tests {
     use crate::film::model::at;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_drawn_is_read_place_by_place(
             values in proptest::collection::vec(-1.0..1.0f32, POINTS), outline in -60.0..60.0f64,

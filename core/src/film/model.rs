@@ -303,7 +303,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn blur_is_the_mean_of_what_is_near(
             steps in proptest::collection::vec((0..POINTS, 0.0..1.0f32), 0..6),

@@ -132,7 +132,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         /// Up to a factor and a constant, which nobody knows of a film: here they are known.
         #[test]
         fn grey_values_are_enhanced_whatever_the_display(

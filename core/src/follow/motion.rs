@@ -86,7 +86,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn both_ends_are_met_and_the_middle_halves_the_turn(
             places in proptest::array::uniform2(proptest::array::uniform3(-60.0..60.0f64)),

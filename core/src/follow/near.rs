@@ -364,7 +364,7 @@ mod tests {
             .max(if across * side < 0.0 { HALF[1] } else { 0.0 })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn a_place_within_a_step_of_a_plate_settles_on_its_edges(
             shift in proptest::array::uniform2(-3.0..3.0f64), turn_deg in -1.5..1.5f64,

@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[cfg(feature = "alloc")]
-    proptest! {
+    properties! {
         /// Two ways on either side of a mirror, each turning a little from frame to frame; a model's axes and a camera's are any.
         #[test]
         fn a_trail_that_jumped_is_known_by_the_ways_on_both_sides(

@@ -177,7 +177,7 @@ mod tests {
 
     const FRAME: [usize; 2] = [150, 110];
 
-    proptest! {
+    properties! {
         #[test]
         fn an_outline_fills_what_it_fills_in_the_whole_frame(
             corners in proptest::collection::vec((0.0..150.0f64, 0.0..110.0f64), 3..9),

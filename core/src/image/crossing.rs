@@ -284,7 +284,7 @@ mod tests {
         None
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn it_is_the_first_pair_of_all(
             radii in proptest::collection::vec(0.5..1.0f64, 3..300),

@@ -113,7 +113,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn the_quick_exponential_is_that_of_the_library(x in -300.0..300.0f64) {
             prop_assert!((exp_quick(x) / libm::exp(x) - 1.0).abs() < 1e-8);

@@ -406,13 +406,13 @@ mod tests {
         );
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_added_along_a_line_is_what_each_place_gives(
             grey in proptest::collection::vec(0..4000u16, 9 * 12),
             origin in proptest::array::uniform2(0.0..9.0f64),
             turn in -3.2..3.2f64, expected in -2.0..2.0f64, aside in -1.0..1.0f64,
-            count in 0..12usize, curvature in prop_oneof![Just(0.0), Just(0.002)], inverted: bool,
+            count in 0..12usize, curvature in prop_oneof![Just(0.0), Just(0.002)], inverted in any::<bool>(),
         ) {
             let bytes: Vec<u8> = grey.iter().map(|grey| (grey / 16) as u8).collect();
             let curve = QuickCurve::from(DisplayCurve::new(curvature, inverted));

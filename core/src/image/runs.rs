@@ -249,7 +249,7 @@ mod tests {
 
     const FRAME: [usize; 2] = [100, 30];
 
-    proptest! {
+    properties! {
         #[test]
         fn runs_are_the_mask_that_a_whole_frame_holds(
             mut words in proptest::collection::vec(any::<Word>(), words_needed(FRAME[0], FRAME[1])),

@@ -309,7 +309,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn columns_are_exact_quotients(
             a in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),

@@ -97,12 +97,12 @@ mod tests {
         Some(sum)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn nothing_is_read_behind_a_shutter_and_all_else_as_ever(
             pixels in proptest::collection::vec(0..4000u16, W * H),
             closed in proptest::collection::vec((0..W, 0..H), 0..12),
-            column in -1.0..W as f64 + 1.0, row in -1.0..H as f64 + 1.0, centred: bool,
+            column in -1.0..W as f64 + 1.0, row in -1.0..H as f64 + 1.0, centred in any::<bool>(),
             turn in -3.2..3.2f64, count in 0..9usize,
         ) {
             let mut words = [0; words_needed(W, H)];

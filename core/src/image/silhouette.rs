@@ -237,7 +237,7 @@ mod tests {
     const HEIGHT: usize = 5;
     const WORDS: usize = words_needed(WIDTH, HEIGHT);
 
-    proptest! {
+    properties! {
         #[test]
         fn unknown_pixels_are_not_counted(
             words in proptest::collection::vec(any::<u32>(), 3 * WORDS)

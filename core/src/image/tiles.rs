@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn a_box_that_holds_a_pixel_of_the_list_meets_its_tile(
             pixels in proptest::collection::vec(proptest::array::uniform2(-5..3000i32), 1..40),

@@ -66,7 +66,7 @@ mod tests {
         ]
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn they_are_those_of_the_paper(
             z in -80.0..80.0f64, x in -60.0..60.0f64, y in -80.0..80.0f64,

@@ -130,7 +130,7 @@ mod tests {
         std::vec![0; library.info().canonical.words_needed()]
     }
 
-    proptest! {
+    properties! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         /// Both layouts say the same.

@@ -384,7 +384,7 @@ mod tests {
         drawn
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_packed_is_drawn_again(words in spots(96)) {
             prop_assert_eq!(drawn_again(&words, 96), words);

@@ -155,7 +155,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn runs_fill_the_blocks_that_their_pixels_are_in(
             (across, per_row, (pieces, counts)) in (1..=WIDEST, 1..6usize)

@@ -151,7 +151,7 @@ mod tests {
         Ok(())
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn bits_are_libms(turns in 0.0..10.0f64, exponent in -40.0..14.0f64, part in 0.0..1.0f64) {
             is_libms(turns)?;

@@ -78,7 +78,7 @@ mod tests {
     use std::format;
     use std::string::ToString;
 
-    proptest! {
+    properties! {
         /// Oracle: the language's own way, but for numbers in the middle between two.
         #[test]
         fn numbers_are_written_as_the_language_writes_them(

@@ -192,7 +192,7 @@ mod tests {
         Ok(())
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn solutions_and_inverses_have_the_bits_of_the_naive_way(
             numbers in proptest::collection::vec(-2.0..2.0f64, 60)

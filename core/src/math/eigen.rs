@@ -63,7 +63,7 @@ mod tests {
     use crate::pose::rotation_zxy;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn a_turned_diagonal_is_found_again(
             values in prop::array::uniform3(-10.0..10.0f64),

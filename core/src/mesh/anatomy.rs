@@ -170,7 +170,7 @@ mod tests {
         (vertices.collect(), triangles)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn the_axes_of_a_tray_move_with_it(
             angles in proptest::array::uniform3(-180.0..180.0f64),

@@ -53,7 +53,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn mirroring_is_rigid_undoes_itself_and_keeps_the_middle(
             z in -180.0..180.0f64, x in -20.0..20.0f64, y in -20.0..20.0f64,

@@ -246,7 +246,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         /// Oracle: every vertex in 64 bits.
         #[test]
         fn the_sphere_is_that_of_every_vertex(

@@ -266,7 +266,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn the_numbers_change_as_finite_differences_do(
             z in -170.0..170.0f64, x in -80.0..80.0f64, y in -170.0..170.0f64,

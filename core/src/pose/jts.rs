@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(rows.next(), Some(Err(JtsError::Row { line: 2 })));
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_written_reads_back_bit_for_bit(values in proptest::array::uniform6(
             proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO

@@ -323,7 +323,7 @@ mod tests {
             .all(|(a, b)| (a - b).abs() < 1e-12)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn the_closed_form_is_the_product_of_three_turns(
             z in -180.0..180.0f64, x in -90.0..90.0f64, y in -180.0..180.0f64

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn residuals_are_kept_in_four_bytes(bits in any::<u32>()) {
             let px = f32::from_bits(bits);

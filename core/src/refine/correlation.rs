@@ -209,7 +209,7 @@ mod tests {
         assert!((five / one - 5.0).abs() < 0.25, "{one} {five}");
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn derivatives_that_are_kept_are_those_that_are_reckoned(
             residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),

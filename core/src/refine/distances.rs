@@ -163,7 +163,7 @@ mod tests {
         places.into_iter().map(sample).collect()
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn bins_are_those_of_the_distance(
             places in proptest::collection::vec((0u16..400, 0u16..400), 20..300), weight in 0.7f32..9.0,

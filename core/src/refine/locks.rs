@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_locked_is_restored_and_nothing_else(z in -170.0..170.0f64, x in -70.0..70.0f64) {
             let start = EulerPose { x_mm: 1.0, y_mm: 2.0, z_mm: -800.0,

@@ -121,7 +121,7 @@ mod tests {
         })
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn jacobians_are_differences_of_images(
             column in 0u16..1024, row in 0u16..1024, slope in (-160i16..=160, -160i16..=160),

@@ -323,7 +323,7 @@ mod tests {
         slope
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn normals_are_those_of_the_tent_over_single_pixels(
             mut words in proptest::collection::vec(any::<Word>(), words_needed(70, 9)),
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn a_part_takes_the_samples_that_its_frame_takes(
             columns in 0usize..50, rows in 0usize..50, column in 0usize..99, row in 0usize..99,

@@ -124,7 +124,7 @@ mod tests {
     const WIDTH: usize = 100;
     const HEIGHT: usize = 9;
 
-    proptest! {
+    properties! {
         #[test]
         fn samples_are_those_that_a_list_has(
             mut samples in proptest::collection::btree_set((2..7usize, 0..WIDTH), 0..300),

@@ -237,7 +237,7 @@ mod tests {
         words
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn readings_in_whole_numbers_are_those_in_floating_point(
             noise in proptest::collection::vec(any::<Word>(), 1..300),

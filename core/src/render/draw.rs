@@ -175,7 +175,7 @@ mod tests {
         [(a, b), (b, c), (c, a)].map(|(a, b)| libm::hypot(b.column - a.column, b.row - a.row))
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn a_triangle_covers_the_centres_inside_it(
             corners in proptest::array::uniform3((-60.0..60.0f32, -60.0..60.0f32, -40.0..40.0f32)),

@@ -242,7 +242,7 @@ mod tests {
         [found, naive]
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn edges_of_a_torus_are_those_of_its_images(
             dents in proptest::collection::vec(-1.0..1.0f32, 1..40),

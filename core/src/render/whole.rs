@@ -202,7 +202,7 @@ mod tests {
     use crate::render::project::image_of;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
         #[test]
         fn an_image_is_that_of_doubles_or_none(

@@ -359,7 +359,7 @@ mod tests {
         words
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn edges_draw_what_triangles_draw(
             dents in proptest::collection::vec(-1.0..1.0f32, 1..40),
@@ -378,7 +378,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn edges_draw_any_triangles(
             dents in proptest::collection::vec(-1.0..1.0f32, 1..40),

@@ -120,7 +120,7 @@ mod tests {
     use bitvec::prelude::{BitSlice, Lsb0};
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn words_count_what_bits_count(
             words in proptest::collection::vec(any::<u32>(), 64),

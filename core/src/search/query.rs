@@ -376,7 +376,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         #[test]
         fn pixels_before_are_counted(words in proptest::collection::vec(
             prop_oneof![Just(0), Just(Word::MAX), any::<Word>()], 1..40

@@ -190,7 +190,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn the_best_are_the_head_of_the_sorted_list(
             scores in proptest::collection::vec(0u32..40, 48)

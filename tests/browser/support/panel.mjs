@@ -1,9 +1,13 @@
 /** What the page says in words and numbers, by role and accessible name. */
 import assert from 'node:assert/strict';
-import { atRest, drawn, until } from './browser.mjs';
+import { ADDRESS, atRest, drawn, until } from './browser.mjs';
+import { demoFile } from './study.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./study.mjs').Pose} Pose */
+
+/** Frames of the demonstration. */
+const DEMONSTRATED = 8;
 
 const QUANTITIES = /** @type {const} */ ([
   ['x', 'x', 'mm'],
@@ -167,10 +171,23 @@ export async function waitForLibraries(page, ...components) {
   await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'no work to be under way');
 }
 
-/** @param {Page} page */
-export async function openDemonstration(page) {
+/** @param {Page} page @param {number} [frames] see [`shorten`] */
+export async function openDemonstration(page, frames = DEMONSTRATED) {
+  if (frames < DEMONSTRATED) await shorten(page, frames);
   await page.getByRole('button', { name: 'Open the demonstration' }).click();
-  await waitForFrames(page, 8);
+  await waitForFrames(page, frames);
+}
+
+/**
+ * The demonstration, once it is opened, has so many frames, the first of its own: a film is followed in half of the time, and every stage has something to do.
+ *
+ * @param {Page} page
+ * @param {number} frames
+ */
+export async function shorten(page, frames) {
+  const manifest = JSON.parse((await demoFile('demo.json')).buffer.toString());
+  const json = { ...manifest, frames: manifest.frames.slice(0, frames) };
+  await page.route(`${ADDRESS}demo/demo.json`, (route) => route.fulfill({ json }), { times: 1 });
 }
 
 /** Waits until the last change is kept in the browser. @param {Page} page */

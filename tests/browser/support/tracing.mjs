@@ -51,9 +51,9 @@ export function insideOf(outline) {
   return best.at;
 }
 
-/** From the empty page to libraries that are ready. @param {Page} page */
-export async function openDemonstration(page) {
-  await panel.openDemonstration(page);
+/** From the empty page to libraries that are ready. @param {Page} page @param {number} [frames] of the demonstration, else all */
+export async function openDemonstration(page, frames) {
+  await panel.openDemonstration(page, frames);
   await panel.waitForLibraries(page, 'Femur', 'Tibia');
 }
 

@@ -68,7 +68,7 @@ mod tests {
     use crate::film::{FilmConstants, FilmModel};
     use proptest::prelude::*;
 
-    proptest! {
+    properties! {
         /// Oracle: the model of a film, which makes its filters anew for each line.
         #[test]
         fn ready_filters_draw_what_the_film_shows_to_the_last_bit(

@@ -205,7 +205,7 @@ fn a_line_over_a_hole_says_so() {
     assert!((10..35).contains(&open), "{open}");
 }
 
-proptest! {
+properties! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn paths_are_the_sums_over_all_triangles(

@@ -244,7 +244,7 @@ fn any_candidates() -> impl Strategy<Value = List<RivalPose>> {
     })
 }
 
-proptest! {
+properties! {
     #[test]
     fn whatever_comes_a_candidate_is_chosen(
         candidates in any_candidates(), other in any_pose(),

@@ -151,7 +151,7 @@ fn many_regions_take_no_more_than_a_few_looks_a_pixel() {
     }
 }
 
-proptest! {
+properties! {
     #[test]
     fn it_is_the_one_that_floods_find(
         width in 1usize..100,

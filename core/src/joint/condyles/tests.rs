@@ -32,7 +32,7 @@ fn check(side: Side, tibia_from_femur: &Pose) {
     }
 }
 
-proptest! {
+properties! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn balls_are_lowest_under_their_middles(

@@ -196,7 +196,7 @@ mod tests {
         libm::hypot(x - place[0], y - place[1])
     }
 
-    proptest! {
+    properties! {
         /// Oracle: all points. A cell's point may be off by what the place is off its middle.
         #[test]
         fn the_point_found_is_nearly_the_nearest(

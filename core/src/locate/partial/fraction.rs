@@ -171,7 +171,7 @@ mod tests {
         count
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn words_count_what_pixels_count(
             words in proptest::collection::vec(any::<u32>(), 36),

@@ -133,7 +133,7 @@ mod tests {
         (image, z_rot, growth)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn another_view_leaves_the_object_where_it_is(
             scales in (0.5..2.0f64, 0.5..2.0f64), angles in (-1.5..1.5f64, -1.5..1.5f64),

@@ -322,7 +322,7 @@ mod tests {
         best
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn running_sums_give_what_each_place_gives_alone(
             harmonics in proptest::collection::vec((0.0..12.0f64, 0.0..6.0f64), 4),

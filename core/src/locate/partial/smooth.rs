@@ -190,7 +190,7 @@ mod tests {
             .collect()
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn running_sums_give_the_averages(
             sides in proptest::collection::vec((0..200u16, 0..160u16), 1..40),

@@ -190,7 +190,7 @@ mod tests {
         sides
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn every_known_side_is_listed_once(
             words in proptest::collection::vec(any::<u32>(), 3 * WORDS)

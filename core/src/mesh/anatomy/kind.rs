@@ -238,7 +238,7 @@ mod tests {
         component_by_shape(&Mesh::new(corners, triangles).expect("valid"))
     }
 
-    proptest! {
+    properties! {
         /// Wherever it lies, however large it is, whichever way its triangles run.
         #[test]
         fn plates_are_trays_and_bows_are_femoral(

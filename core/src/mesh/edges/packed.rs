@@ -162,7 +162,7 @@ mod tests {
         places
     }
 
-    proptest! {
+    properties! {
         /// Holes, several triangles at an edge, vertices at one place, windings of both kinds.
         #[test]
         fn triangles_are_found_again_from_their_edges(

@@ -98,7 +98,7 @@ mod tests {
         around && needs.all(|(own, other)| own >= other && own <= 1.02 * other + 1e-30)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn what_is_tightened_is_read_again(edges in edges(), seed in any::<u32>()) {
             let count = edges.len().div_ceil(IN_BOX);

@@ -277,7 +277,7 @@ mod tests {
         prop::array::uniform3(-10.0..10.0f64)
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn no_point_of_the_triangle_is_nearer(
             p in point(), triangle in prop::array::uniform3(point()),

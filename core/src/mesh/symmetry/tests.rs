@@ -146,7 +146,7 @@ fn distance(plane: &SymmetryPlane, pose: &Pose, point: &Vector3) -> f64 {
     (dot(&plane.normal, &point) - dot(&plane.normal, &plane.point)).abs()
 }
 
-proptest! {
+properties! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]

@@ -88,7 +88,7 @@ impl Memory {
     }
 }
 
-proptest! {
+properties! {
     #[test]
     fn the_catalogue_finds_what_searching_every_library_finds((files, silhouette) in cases()) {
         let libraries: std::vec::Vec<_> =

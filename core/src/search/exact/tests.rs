@@ -129,7 +129,7 @@ fn check_search(bytes: &[u8], silhouette: &[Word]) {
     });
 }
 
-proptest! {
+properties! {
     #[test]
     fn the_search_finds_what_comparing_every_view_finds((views, silhouette) in cases()) {
         let plain = plain_library(&views, COLUMNS, spec());

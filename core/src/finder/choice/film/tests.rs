@@ -191,7 +191,7 @@ fn film() -> impl Strategy<Value = List<List<RivalPose>>> {
     prop::collection::vec(frame, 1..6)
 }
 
-proptest! {
+properties! {
     #[test]
     fn no_other_way_through_the_film_is_cheaper(film in film()) {
         let choices = chosen(&film);

@@ -1,0 +1,5 @@
+/** Every tool and the keys, in one Firefox, as `poses.mjs`. */
+import '../keys.test.mjs';
+import '../outline_tools.test.mjs';
+import '../tool_keys.test.mjs';
+import '../tracing.test.mjs';
