@@ -84,7 +84,7 @@ class Arguments(OnTheDemo):
                 camera = fp.Camera(matrix(*numbers), size)
             self.assertRegex(camera.remarks[0], words)
         for numbers, words in (
-            ((3200, -3200, 511.5, 511.5), "K or size: .*vertical focal length is -3200"),
+            ((3200, -3200, 511.5, 511.5), "K or size: .*negative focal length, -3200.*whose y runs the other way"),
             ((3.2, 3.2, 0.5, 0.5), "focal length is 3.2; it must be at least a tenth"),
             ((3200, 3200, 2e5, 511.5), "principal point"),
         ):
