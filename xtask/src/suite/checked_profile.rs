@@ -27,11 +27,18 @@ pub(super) fn surroundings() -> impl Iterator<Item = (&'static str, &'static str
 /// # Errors
 /// Where there is no linter.
 pub(crate) fn cargo(what: &str, options: &[&str]) -> Result<Command> {
+    let mut cargo = of_some(what)?;
+    cargo.arg("--workspace").args(options);
+    Ok(cargo)
+}
+
+/// The same on packages that whoever calls names.
+///
+/// # Errors
+/// Where there is no linter.
+pub(crate) fn of_some(what: &str) -> Result<Command> {
     let mut cargo = own_cargo();
-    cargo
-        .args([what, "--workspace"])
-        .args(CHECKED)
-        .args(options);
+    cargo.arg(what).args(CHECKED);
     components::lint(&mut cargo)?;
     Ok(cargo)
 }

@@ -117,14 +117,9 @@ fn pages_of_the_crates() -> Result<Said> {
         "fluoropose-embedded",
     ];
     let packages = crates.iter().flat_map(|name| ["--package", name]);
-    let mut cargo = own_cargo();
-    cargo.args([
-        "doc",
-        "--no-deps",
-        "--release",
-        "--features",
-        "fluoropose/alloc",
-    ]);
+    // What they stand on is compiled for the tests.
+    let mut cargo = checked_profile::of_some("doc")?;
+    cargo.args(["--no-deps", "--features", "fluoropose/alloc"]);
     quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
