@@ -5,8 +5,9 @@ use fluoropose_decode::{FrameFile, decode_model};
 use tiff::encoder::Compression;
 use tiff::encoder::colortype::Gray8;
 
-use crate::hostile::{SAMPLES, read_all};
+use crate::hostile::read_all;
 use crate::samples::dicom::{Builder, EXPLICIT, JPEG_2000, RLE, run_lengths};
+use crate::samples::every::SAMPLES;
 use crate::samples::{foreign, jpeg2000, pattern, png, tiff};
 
 /// Bytes that may be held at once whatever a file's size, and for each of its bytes: any coding but JPEG 2000 makes at most

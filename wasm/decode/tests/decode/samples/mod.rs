@@ -1,6 +1,7 @@
 //! Small files made in code, by encoders that are not part of what is tested, or by hand.
 
 pub(crate) mod dicom;
+pub(crate) mod every;
 pub(crate) mod foreign;
 pub(crate) mod jpeg2000;
 pub(crate) mod lossless;
