@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::Pose;
+use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_laboratory::files::owned;
 use fluoropose_phantom::implant::{self, Parameters, Triangles};
 
@@ -90,6 +90,16 @@ pub fn tibia() -> Triangles {
 pub fn surface(triangles: Triangles) -> OwnedModel {
     owned(triangles).expect("built-in implants are valid")
 }
+
+/// Where an implant is that is looked for: wholly in the frame of [`camera`], out of the views that are special.
+pub const TRUTH: EulerPose = EulerPose {
+    x_mm: 6.0,
+    y_mm: -11.0,
+    z_mm: -1070.0,
+    z_rot_deg: 35.0,
+    x_rot_deg: 4.0,
+    y_rot_deg: -7.0,
+};
 
 /// A model with its file's axes turned by a rigid motion, mm.
 ///

@@ -7,7 +7,7 @@
 #![cfg_attr(target_os = "none", no_std)]
 
 mod compiled;
-#[cfg(usada8)]
+#[cfg(any(usada8, test))]
 mod usada8;
 
 use fluoropose::search::kernels::Kernels;

@@ -9,16 +9,7 @@ use fluoropose::refine::{
     places_needed, refine,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose_tests::{camera, femur, mesh};
-
-const TRUTH: EulerPose = EulerPose {
-    x_mm: 6.0,
-    y_mm: -11.0,
-    z_mm: -1070.0,
-    z_rot_deg: 35.0,
-    x_rot_deg: 4.0,
-    y_rot_deg: -7.0,
-};
+use fluoropose_tests::{TRUTH, camera, femur, mesh};
 
 /// A little off in every number.
 const START: EulerPose = EulerPose {
