@@ -1,9 +1,10 @@
 //! Numbers as the command line writes them.
 
-use std::path::PathBuf;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
 use fluoropose::library::ViewAxis;
 use fluoropose::refine::Polarity;
@@ -109,4 +110,55 @@ pub fn study_files() -> impl TypedValueParser<Value = PathBuf> {
 /// Reads `left` or `right`.
 pub fn sides() -> impl TypedValueParser<Value = Side> {
     PossibleValuesParser::new(["left", "right"]).try_map(|side| side.parse::<Side>())
+}
+
+/// Seeds from one to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seeds(pub RangeInclusive<u64>);
+
+impl Seeds {
+    /// Each with its folder: `out` itself where there is but one, else a folder there.
+    pub fn folders(&self, out: &Path) -> impl Iterator<Item = (u64, PathBuf)> {
+        let is_one = self.0.start() == self.0.end();
+        let folder = move |seed: u64| match is_one {
+            true => out.to_owned(),
+            false => out.join(seed.to_string()),
+        };
+        self.0.clone().map(move |seed| (seed, folder(seed)))
+    }
+}
+
+impl FromStr for Seeds {
+    type Err = anyhow::Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let (first, last) = text.split_once("..").unwrap_or((text, text));
+        let what = || format!("'{text}' is neither a number nor two as in 1..12");
+        let (first, last) = (
+            first.parse().with_context(what)?,
+            last.parse().with_context(what)?,
+        );
+        ensure!(first <= last, "'{text}' holds no seed");
+        Ok(Self(first..=last))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seeds_are_one_or_all_from_one_to_another() {
+        assert_eq!("7".parse::<Seeds>().unwrap(), Seeds(7..=7));
+        assert_eq!("3..9".parse::<Seeds>().unwrap(), Seeds(3..=9));
+        let folders = |seeds: Seeds| {
+            let folders = seeds.folders(Path::new("out"));
+            folders.map(|(_, folder)| folder).collect::<Vec<_>>()
+        };
+        assert_eq!(folders(Seeds(7..=7)), [Path::new("out")]);
+        assert_eq!(folders(Seeds(8..=9)), ["out/8", "out/9"].map(Path::new));
+        for wrong in ["", "a", "3..", "9..3", "1..2..3"] {
+            assert!(wrong.parse::<Seeds>().is_err(), "{wrong}");
+        }
+    }
 }

@@ -12,6 +12,7 @@ pub mod evaluate;
 pub mod identify;
 pub mod kinematics;
 pub mod library;
+mod measured_film;
 pub mod outline;
 pub mod pose;
 pub mod report;

@@ -5,22 +5,20 @@ mod draw;
 mod frame_file;
 mod lens;
 mod marks;
-mod measure;
 mod mesh;
 mod picture;
 mod plan;
 mod words;
 mod write;
 
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 use crate::files::{Film, Study, read_text, write_json};
-use crate::options::study_files;
+use crate::options::{Seeds, study_files};
 use crate::verbs::compare::COLUMNS;
+use crate::verbs::measured_film::{HEADING, Words, follow};
 
 pub use lens::{Axes, Lens};
 pub use plan::{Curve, Field, Frames, Kind, Marks, Mesh, Models, Plan, Tone, View};
@@ -66,25 +64,6 @@ pub struct Args {
     json: Option<PathBuf>,
 }
 
-/// Seeds from one to another.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Seeds(RangeInclusive<u64>);
-
-impl FromStr for Seeds {
-    type Err = anyhow::Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let (first, last) = text.split_once("..").unwrap_or((text, text));
-        let what = || format!("'{text}' is neither a number nor two as in 1..12");
-        let (first, last) = (
-            first.parse().with_context(what)?,
-            last.parse().with_context(what)?,
-        );
-        ensure!(first <= last, "'{text}' holds no seed");
-        Ok(Self(first..=last))
-    }
-}
-
 /// Runs the verb.
 ///
 /// # Errors
@@ -92,17 +71,20 @@ impl FromStr for Seeds {
 pub fn run(args: Args) -> Result<()> {
     let mut rows = Vec::new();
     if args.track {
-        println!("{}", measure::HEADING);
+        println!("{}", HEADING);
     }
     for (plan, out) in plans(&args)? {
         disguise(&args.study, &plan, &out)?;
         match args.track {
             false => println!("{}: {plan}", out.display()),
             true => {
-                let measured = measure::follow(&out, &plan, args.click);
-                let measured = measured.with_context(|| out.display().to_string())?;
-                measured.iter().for_each(|row| println!("{row}"));
-                rows.extend(measured);
+                let clicks = match args.click {
+                    true => clicks::within_each(&out, plan.seed)?,
+                    false => Vec::new(),
+                };
+                let film = Words::Disguise(plan.to_string());
+                let measured = follow(&out, clicks, plan.seed, &film);
+                rows.extend(measured.with_context(|| out.display().to_string())?);
                 // Hours of work are kept where a later one ends it.
                 write_json(args.json.as_deref(), &rows)?;
             }
@@ -121,17 +103,10 @@ fn plans(args: &Args) -> Result<Vec<(Plan, PathBuf)>> {
             args.out.clone(),
         ));
     }
-    if let Some(Seeds(seeds)) = &args.seed {
+    if let Some(seeds) = &args.seed {
         let (count, size) = size_of(&args.study)?;
-        let folder = |seed: u64| match seeds.start() == seeds.end() {
-            true => args.out.clone(),
-            false => args.out.join(seed.to_string()),
-        };
-        plans.extend(
-            seeds
-                .clone()
-                .map(|seed| (Plan::drawn(seed, count, size), folder(seed))),
-        );
+        let drawn = |(seed, folder)| (Plan::drawn(seed, count, size), folder);
+        plans.extend(seeds.folders(&args.out).map(drawn));
     }
     for (plan, _) in &mut plans {
         plan.frames.count = args.frames.unwrap_or(plan.frames.count);
@@ -151,15 +126,6 @@ fn size_of(study: &Path) -> Result<(usize, (usize, usize))> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn seeds_are_one_or_all_from_one_to_another() {
-        assert_eq!("7".parse::<Seeds>().unwrap(), Seeds(7..=7));
-        assert_eq!("3..9".parse::<Seeds>().unwrap(), Seeds(3..=9));
-        for wrong in ["", "a", "3..", "9..3", "1..2..3"] {
-            assert!(wrong.parse::<Seeds>().is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn a_seed_draws_the_same_again_and_a_file_states_it_whole() {

@@ -4,6 +4,7 @@ mod activity;
 mod anywhere;
 mod films;
 mod implants;
+mod knees;
 mod physics;
 mod protocol;
 mod random;
@@ -43,17 +44,20 @@ Below the errors stand what no unbiased estimator undercuts for this noise (the 
 reaches, root mean square over the same poses, and the errors divided by them. Without jitter the noise is rounding to pixels, \
 1/12 square pixel for each pixel of outline.\n\n\
 --films measures grey films of the built-in implants instead: display x blur x scatter, an unsharp mask, a square-root display; each component \
-found from one click, and refined on the film from its true pose. --activity writes a film with its truth, as the folder of a study.\n\n\
+found from one click, and refined on the film from its true pose. --activity writes a film with its truth, as the folder of a study. --knees draws all of a film at random, by its seed: a design (a study's implants stretched by 0.85 to 1.35 along each \
+axis), knee, activity, display, blur, scatter, exposure, metals, enhanced edges, shutter, and what else is in the beam; --track follows each from nothing and prints its rows, \
+as `disguise --track` does.\n\n\
 Examples:\n  cargo xtask synthetic --model femur.stl --calibration calibration.txt --poses 150 --seed 1\n  \
 cargo xtask synthetic --films --count 25\n  \
-cargo xtask synthetic --activity gait --frames 120 --display linear --second-leg --out gait"
+cargo xtask synthetic --activity gait --frames 120 --display linear --second-leg --out gait\n  \
+cargo xtask synthetic --knees 1..16 --implants study.toml --frames 12 --out knees --track --json rows.json"
 )]
 pub struct Args {
     /// The implant's model: STL (binary or ASCII), OBJ or PLY, in mm
-    #[arg(long, required_unless_present_any = ["films", "activity"])]
+    #[arg(long, required_unless_present_any = ["films", "activity", "knees"])]
     model: Option<PathBuf>,
     /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
-    #[arg(long, required_unless_present_any = ["films", "activity"])]
+    #[arg(long, required_unless_present_any = ["films", "activity", "knees"])]
     calibration: Option<PathBuf>,
     /// Width and height of the frames, pixels
     #[arg(long, value_name = "W,H", default_value = "1024,1024")]
@@ -92,6 +96,8 @@ pub struct Args {
     #[command(flatten)]
     activity: activity::ActivityArgs,
     #[command(flatten)]
+    knees: knees::KneeArgs,
+    #[command(flatten)]
     views: ViewOptions,
     #[command(flatten)]
     disturbance: DisturbanceOptions,
@@ -110,6 +116,15 @@ pub fn run(args: Args) -> Result<()> {
     }
     if args.activity.activity.is_some() {
         return activity::run(&args.activity, args.seed);
+    }
+    let places = args
+        .activity
+        .implants
+        .as_ref()
+        .zip(args.activity.out.as_ref());
+    if let Some((implants, out)) = places.filter(|_| args.knees.knees.is_some()) {
+        let frames = args.activity.frames;
+        return knees::run(&args.knees, (implants, out), frames, args.json.as_deref());
     }
     let needed = |path: &Option<PathBuf>| path.clone().context("which model and calibration?");
     let model = read_model(&needed(&args.model)?)?;

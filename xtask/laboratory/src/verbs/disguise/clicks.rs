@@ -7,7 +7,7 @@ use fluoropose::image::mask::Mask;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::files::{Component, files_in, read_mask};
+use crate::files::{Component, Study, files_in, read_mask};
 use crate::verbs::track::Click;
 
 /// Streams of random numbers that neither frames nor models have.
@@ -17,11 +17,26 @@ const WITHIN: usize = 3;
 /// Draws of a frame before none is thought to show the component.
 const DRAWS: usize = 100;
 
+/// A click into each component of a disguised film.
+///
+/// # Errors
+/// For a study and masks that cannot be read.
+pub(super) fn within_each(folder: &Path, seed: u64) -> Result<Vec<Click>> {
+    let study = Study::read_quietly(&folder.join("study.toml"))?;
+    let mut clicks = Vec::new();
+    for component in &study.components {
+        if let Some(masks) = component.masks.get("truth") {
+            clicks.extend(click(component, masks, seed)?);
+        }
+    }
+    Ok(clicks)
+}
+
 /// A click in a frame that is drawn among those which show the component; none where no frame does.
 ///
 /// # Errors
 /// For masks that cannot be read.
-pub(super) fn click(component: &Component, masks: &Path, seed: u64) -> Result<Option<Click>> {
+fn click(component: &Component, masks: &Path, seed: u64) -> Result<Option<Click>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(CLICKS);
     let files = files_in(masks)?;

@@ -17,12 +17,12 @@ pub(super) struct ActivityArgs {
     /// Write a film of the built-in implants: knee-bend, stair or gait
     #[arg(long, requires = "out", conflicts_with = "films")]
     pub(super) activity: Option<Activity>,
-    /// With --activity: folder to write to; made if absent
-    #[arg(long, value_name = "DIR", requires = "activity")]
-    out: Option<PathBuf>,
-    /// With --activity: number of frames
+    /// With --activity and --knees: folder to write to; made if absent
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// With --activity and --knees: number of frames
     #[arg(long, default_value_t = 120)]
-    frames: usize,
+    pub(super) frames: usize,
     /// With --activity: left or right knee
     #[arg(long, default_value_t = Side::Left)]
     side: Side,
@@ -35,9 +35,9 @@ pub(super) struct ActivityArgs {
     /// With --activity: the joint leaves the field to one side and comes back
     #[arg(long)]
     leaves_field: bool,
-    /// With --activity: the implants of this study in place of the built-in ones
+    /// With --activity and --knees: the implants of this study in place of the built-in ones
     #[arg(long, value_name = "STUDY", value_parser = study_files())]
-    implants: Option<PathBuf>,
+    pub(super) implants: Option<PathBuf>,
     /// With --implants: other designs, stretched by so much along the anterior, superior and lateral axis
     #[arg(
         long,

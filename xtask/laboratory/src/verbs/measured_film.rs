@@ -1,4 +1,4 @@
-//! A disguised film followed, against its truth.
+//! A film whose truth is known, followed and compared with it.
 
 use std::fmt;
 use std::path::Path;
@@ -7,18 +7,16 @@ use std::sync::Arc;
 use anyhow::Result;
 use serde::Serialize;
 
-use super::clicks::click;
-use super::plan::Plan;
-use crate::files::Study;
+use super::compare::{self, compare};
+use super::track::{Click, Request, track};
 use crate::progress::Stop;
-use crate::verbs::compare::{self, compare};
-use crate::verbs::track::{Request, track};
 
-/// A component of a disguised film.
+/// A component of such a film.
 #[derive(Serialize)]
 pub(super) struct Row {
     seed: u64,
-    disguise: String,
+    #[serde(flatten)]
+    film: Words,
     clicks: usize,
     /// Processor time of the whole film, seconds; where the system does not tell it, nothing.
     cpu_s: Option<f64>,
@@ -26,8 +24,23 @@ pub(super) struct Row {
     errors: compare::Row,
 }
 
+/// What is known of a film, in words.
+#[derive(Clone, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Words {
+    Disguise(String),
+    Film(String),
+}
+
+impl fmt::Display for Words {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Disguise(words) | Self::Film(words)) = self;
+        f.write_str(words)
+    }
+}
+
 /// The head of the table of rows.
-pub(super) const HEADING: &str = "| seed | CPU s | component | frames | median deg | largest deg | doubtful | none | largest good deg | in plane mm | depth mm | wrong and good | disguise |\n\
+pub(super) const HEADING: &str = "| seed | CPU s | component | frames | median deg | largest deg | doubtful | none | largest good deg | in plane mm | depth mm | wrong and good | film |\n\
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
 
 impl fmt::Display for Row {
@@ -38,7 +51,7 @@ impl fmt::Display for Row {
         write!(
             f,
             "| {} | {time} {} {} |",
-            self.seed, self.errors, self.disguise
+            self.seed, self.errors, self.film
         )?;
         self.errors
             .told()
@@ -46,18 +59,17 @@ impl fmt::Display for Row {
     }
 }
 
-/// Follows a film from nothing, or from a click into each component.
+/// Follows the film in a folder from clicks, or from nothing, and prints its rows.
 ///
 /// # Errors
 /// Those of [`track`] and [`compare`].
-pub(super) fn follow(folder: &Path, plan: &Plan, from_clicks: bool) -> Result<Vec<Row>> {
+pub(super) fn follow(
+    folder: &Path,
+    clicks: Vec<Click>,
+    seed: u64,
+    film: &Words,
+) -> Result<Vec<Row>> {
     let study = folder.join("study.toml");
-    let mut clicks = Vec::new();
-    for component in &Study::read_quietly(&study)?.components {
-        if let Some(masks) = component.masks.get("truth").filter(|_| from_clicks) {
-            clicks.extend(click(component, masks, plan.seed)?);
-        }
-    }
     let out = folder.join("tracked");
     let (begin, count) = (cpu_s(), clicks.len());
     track(&Request {
@@ -73,13 +85,15 @@ pub(super) fn follow(folder: &Path, plan: &Plan, from_clicks: bool) -> Result<Ve
     })?;
     let cpu_s = cpu_s().zip(begin).map(|(end, begin)| end - begin);
     let row = |errors| Row {
-        seed: plan.seed,
-        disguise: plan.to_string(),
+        seed,
+        film: film.clone(),
         clicks: count,
         cpu_s,
         errors,
     };
-    Ok(compare(&study, &out)?.into_iter().map(row).collect())
+    let rows: Vec<Row> = compare(&study, &out)?.into_iter().map(row).collect();
+    rows.iter().for_each(|row| println!("{row}"));
+    Ok(rows)
 }
 
 /// Processor time of this process so far, as Linux tells it.
