@@ -15,7 +15,9 @@ use super::known_femur::KnownFemur;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
 use super::side_margin::SideMargin;
-use super::side_samples::{SideSample, evidence_of, frames_for_sides, runs_to_go_over};
+use super::side_samples::{
+    SideSample, evidence_of, first_for_sides, frames_for_sides, runs_to_go_over, tell_between,
+};
 use super::sides::{Rival, SideStep, choose_sides};
 use crate::math::Vector3;
 
@@ -47,6 +49,9 @@ enum Phase {
     CrossWay,
     Sides,
     Choose,
+    /// Frames between those, where these do not tell.
+    Between,
+    ChooseAgain,
     /// To the other side, where that is the right one.
     GoOver,
     /// The way may have led back.
@@ -115,8 +120,13 @@ impl Settling {
         loop {
             let (step, phase) = match self.phase {
                 Phase::CrossWay => self.cross(cells, Phase::Sides),
-                Phase::Sides => (self.unseen(Rival::Mirrored, cells), Phase::Choose),
-                Phase::Choose => (Some(SettlingStep::Choose), Phase::GoOver),
+                Phase::Sides => (self.see_sides(cells), Phase::Choose),
+                Phase::Choose => (Some(SettlingStep::Choose), Phase::Between),
+                Phase::Between => match self.see_between(cells) {
+                    None => (None, Phase::GoOver),
+                    step => (step, Phase::ChooseAgain),
+                },
+                Phase::ChooseAgain => (Some(SettlingStep::Choose), Phase::GoOver),
                 Phase::GoOver => {
                     let runs = runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
                     (self.to_go_over(runs, cells), Phase::Stay)
@@ -125,7 +135,7 @@ impl Settling {
                     self.stay(cells);
                     (None, self.after_sides(cells))
                 }
-                Phase::Elsewhere => (self.unseen(Rival::Elsewhere, cells), Phase::GoElsewhere),
+                Phase::Elsewhere => (self.see_elsewhere(cells), Phase::GoElsewhere),
                 Phase::GoElsewhere => self.go_elsewhere(cells),
                 Phase::Keep => match self.keep_what_leaves_less(cells) {
                     true => (None, Phase::Sides),
@@ -207,24 +217,44 @@ impl Settling {
         (None, after)
     }
 
-    /// The frames to be seen from the other side, or from elsewhere: but for those that were, whose pose is as it was then.
-    fn unseen(&mut self, rival: Rival, cells: &[Cell]) -> Option<SettlingStep> {
-        let wanted: Vec<usize> = match rival {
-            Rival::Mirrored => frames_for_sides(cells)
-                .filter(|frame| self.range.contains(frame))
-                .collect(),
-            Rival::Elsewhere => {
-                let frames = self.samples.iter().map(|sample| sample.frame);
-                frames.filter(|&frame| !cells[frame].fixed).collect()
-            }
+    /// What is seen from both sides before any is chosen.
+    fn see_sides(&mut self, cells: &[Cell]) -> Option<SettlingStep> {
+        let frames = first_for_sides(cells).filter(|frame| self.range.contains(frame));
+        let frames = frames.collect();
+        self.unseen(Rival::Mirrored, frames, cells)
+    }
+
+    /// What is seen as well, because what was chosen does not tell it.
+    fn see_between(&mut self, cells: &[Cell]) -> Option<SettlingStep> {
+        let chosen: Vec<(&SideSample, &SideStep)> = self.choice().collect();
+        let is_told = |frame: usize| {
+            let behind = chosen.partition_point(|(sample, _)| sample.frame < frame);
+            let pair = behind.checked_sub(1).and_then(|k| chosen.get(k..k + 2));
+            let pair = pair.and_then(|pair| <[_; 2]>::try_from(pair).ok());
+            pair.is_some_and(|pair| tell_between(pair, cells))
         };
+        let frames = frames_for_sides(cells)
+            .filter(|frame| self.range.contains(frame) && !is_told(*frame))
+            .collect();
+        self.unseen(Rival::Mirrored, frames, cells)
+    }
+
+    /// What is seen from elsewhere: what was from both sides.
+    fn see_elsewhere(&mut self, cells: &[Cell]) -> Option<SettlingStep> {
+        let frames = self.samples.iter().map(|sample| sample.frame);
+        let frames = frames.filter(|&frame| !cells[frame].fixed).collect();
+        self.unseen(Rival::Elsewhere, frames, cells)
+    }
+
+    /// The frames that are to be seen, but for those that were, whose pose is as it was then.
+    fn unseen(&mut self, rival: Rival, frames: Vec<usize>, cells: &[Cell]) -> Option<SettlingStep> {
         let samples = match rival {
             Rival::Mirrored => &mut self.samples,
             Rival::Elsewhere => &mut self.elsewhere,
         };
         samples.retain(|sample| cells[sample.frame].found() == Some(&sample.own));
         let is_new = |frame: &usize| !samples.iter().any(|one| one.frame == *frame);
-        let frames: Vec<usize> = wanted.into_iter().filter(is_new).collect();
+        let frames: Vec<usize> = frames.into_iter().filter(is_new).collect();
         (!frames.is_empty()).then_some(SettlingStep::See(rival, frames))
     }
 
@@ -258,7 +288,7 @@ impl Settling {
     /// A way on the other side may rock where the one before did not: those frames are seen from both sides too, and sides chosen once more.
     fn after_sides(&mut self, cells: &[Cell]) -> Phase {
         let is_seen = |frame: &usize| self.both_sides_of(*frame).is_some();
-        let rocks_anew = frames_for_sides(cells)
+        let rocks_anew = first_for_sides(cells)
             .filter(|frame| self.range.contains(frame))
             .any(|frame| !is_seen(&frame));
         match rocks_anew && self.sides_again > 0 {

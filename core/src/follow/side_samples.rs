@@ -23,6 +23,15 @@ const LEAST: usize = 6;
 /// Poses of two frames belong together crosswise where they are nearer by this part than as they are.
 #[cfg(feature = "alloc")]
 pub(super) const CROSSED: f64 = 0.5;
+/// Two frames tell what lies between them where each tells as much as so many that decide by themselves,
+#[cfg(feature = "alloc")]
+const TOLD: f64 = 3.0;
+/// where their sides are so many times farther apart than where both are one,
+#[cfg(feature = "alloc")]
+const APART: f64 = 4.0;
+/// and where no frame between them leaves more than so many times what they do.
+#[cfg(feature = "alloc")]
+const ALIKE: f64 = 1.15;
 /// Where there is no other side, it fits so many times worse.
 const NO_OTHER: f64 = 10.0;
 
@@ -191,17 +200,55 @@ pub(super) fn evidence_of(
     evidence.collect()
 }
 
-/// The frames that are to be seen from both sides, in their order: some all along the film, and those where the trail rocks as if it went
+/// The frames that may be seen from both sides, in their order: some all along the film, and those where the trail rocks as if it went
 /// over the mirror and back.
 pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
+    numbered(cells).map(|(frame, _)| frame)
+}
+
+/// Those of them that are seen before any side is chosen: every other of those all along the film, and all where the trail rocks.
+pub(super) fn first_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
+    let is_first = |&(_, number): &(usize, Option<usize>)| number.is_none_or(|k| k % 2 == 0);
+    numbered(cells).filter(is_first).map(|(frame, _)| frame)
+}
+
+/// [`frames_for_sides`], those all along the film with their numbers.
+fn numbered(cells: &[Cell]) -> impl Iterator<Item = (usize, Option<usize>)> + '_ {
     let posed = || (0..cells.len()).filter(|&frame| cells[frame].found().is_some());
     let every = (posed().count() / LEAST).clamp(1, EVERY);
     let near = |frame: usize| frame.saturating_sub(1)..=frame + 1;
-    let wanted = move |&(k, frame): &(usize, usize)| {
-        let regular = k % every == every / 2;
-        regular || cells[frame].fixed || near(frame).any(|frame| rocks(cells, frame))
+    posed().enumerate().filter_map(move |(k, frame)| {
+        let by_itself = cells[frame].fixed || near(frame).any(|frame| rocks(cells, frame));
+        let regular = (k % every == every / 2).then_some(k / every);
+        match by_itself {
+            true => Some((frame, None)),
+            false => regular.map(|number| (frame, Some(number))),
+        }
+    })
+}
+
+/// Whether what two frames said of their sides tells the side of all between them: the trail is on the right one in both by far, its sides stay
+/// apart, and no frame between them leaves more than these.
+#[cfg(feature = "alloc")]
+pub(super) fn tell_between(
+    [(before, first), (behind, last)]: [(&SideSample, &SideStep); 2],
+    cells: &[Cell],
+) -> bool {
+    let is_told = |step: &SideStep| step.side == Side::Own && step.margin >= TOLD;
+    let apart = |sample: &SideSample| {
+        let other = sample.other.as_ref().map(|other| &other.pose.rotation);
+        other.map_or(0.0, |other| geodesic_deg(&sample.own.pose.rotation, other))
     };
-    posed().enumerate().filter(wanted).map(|(_, frame)| frame)
+    let least_apart = apart(before).min(apart(behind));
+    let turn = out_of_plane_deg(&before.own.pose, &behind.own.pose);
+    let most_px = ALIKE * before.own.misfit_px.max(behind.own.misfit_px);
+    let is_alike = |cell: &Cell| cell.found().is_some_and(|now| now.misfit_px <= most_px);
+    let between = cells.get(before.frame..behind.frame).unwrap_or_default();
+    is_told(first)
+        && is_told(last)
+        && least_apart >= APART * ONE_DEG
+        && turn <= least_apart / 2.0
+        && between.iter().all(is_alike)
 }
 
 /// Whether a frame lies as far out of the image plane off the way between those beside it as one does where two sides of a mirror that are

@@ -32,7 +32,7 @@ const ALL_DEG: f64 = 180.0;
 /// Limits of trust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrustLimits {
-    /// Most misfit, in usual ones of the film.
+    /// Most misfit, in usual ones of the film: in what its better frames leave, because all may move in the others while they are exposed.
     pub misfit: f64,
     /// A usual misfit below this counts as so much, pixels.
     pub least_misfit_px: f64,
@@ -118,7 +118,7 @@ pub fn judge_film(
     trusts: &mut [Trust],
 ) {
     let usual = Usual {
-        misfit_px: median(film.iter().filter_map(misfit), sorted),
+        misfit_px: lower_quartile(film.iter().filter_map(misfit), sorted),
         strength: median(film.iter().filter_map(strength), sorted),
         jump: [0, 1].map(|k| {
             let jumps = (0..film.len()).filter_map(|at| Some(jump(film, at, middle)?[k]));
@@ -274,14 +274,27 @@ fn open_deg(covariance: Option<&PoseCovariance>) -> f64 {
 
 /// The median of some numbers; 0 without any.
 fn median(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
+    let sorted = sort(values, sorted);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The number that a quarter of them lies below, and the greater one of two; 0 without any.
+fn lower_quartile(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
+    let sorted = sort(values, sorted);
+    let quartile = sorted.get(sorted.len().div_ceil(4)).or(sorted.last());
+    quartile.copied().unwrap_or(0.0)
+}
+
+/// The numbers for which there is room, the least first.
+fn sort(values: impl Iterator<Item = f64>, room: &mut [f64]) -> &[f64] {
     let mut count = 0;
-    for (place, value) in sorted.iter_mut().zip(values) {
+    for (place, value) in room.iter_mut().zip(values) {
         *place = value;
         count += 1;
     }
-    let sorted = &mut sorted[..count];
+    let sorted = &mut room[..count];
     sorted.sort_unstable_by(f64::total_cmp);
-    sorted.get(count / 2).copied().unwrap_or(0.0)
+    sorted
 }
 
 #[cfg(test)]
@@ -337,6 +350,31 @@ mod tests {
             trusts[0].distrust.map(|why| why.word())
         };
         assert_eq!([1.4, 2.9].map(judged), [None, Some("residual")]);
+    }
+
+    #[test]
+    fn what_leaves_far_more_than_the_better_frames_is_doubtful_though_most_do() {
+        let judged = |misfits: &[f64]| -> std::vec::Vec<bool> {
+            let seen = |(k, px): (usize, &f64)| FrameEvidence {
+                found: Some(turned(k as f64, *px)),
+                ..FrameEvidence::default()
+            };
+            let film: std::vec::Vec<FrameEvidence> = misfits.iter().enumerate().map(seen).collect();
+            let count = film.len();
+            let (mut sorted, mut trusts) =
+                (std::vec![0.0; count], std::vec![Trust::default(); count]);
+            let usual = &TrustLimits::USUAL;
+            judge_film(&film, usual, &[0.0; 3], &mut sorted, &mut trusts);
+            trusts
+                .iter()
+                .map(|trust| trust.distrust.is_some())
+                .collect()
+        };
+        let blurred = judged(&[0.2, 0.25, 0.25, 0.7, 0.7, 0.7, 0.7, 0.7]);
+        assert_eq!(blurred, [false, false, false, true, true, true, true, true]);
+        // Two frames do not tell what is usual.
+        assert_eq!(judged(&[0.2, 0.7]), [false, false]);
+        assert_eq!(judged(&[0.4, 0.5, 0.6, 0.8]), [false; 4]);
     }
 
     #[test]

@@ -39,7 +39,9 @@ const LEAST_CURVATURE: f64 = 0.2;
 /// No combination of the six parameters is held less than this part of what it were with the mean of `psi'` everywhere:
 /// four standard deviations instead of one.
 const LEAST_HOLD: f64 = 0.25;
-/// Mixtures with that mean, one after the other, until it is so.
+/// None errs less than this part of what it would if the outline erred in independent stretches: a quarter of the standard deviation.
+const LEAST_SPREAD: f64 = 1.0 / 16.0;
+/// Mixtures with what were so all along the outline, one after the other, until it is so.
 const MIXTURES: u32 = 8;
 /// Independent stretches beyond the six parameters that are supposed at least.
 const LEAST_FREEDOM: f64 = 4.0;
@@ -201,6 +203,8 @@ struct Sums {
     length: f64,
     /// Number of stretches that err independently.
     stretches: f64,
+    /// `sum(l v)` with what a pixel of length errs where stretches do so independently: the variance of `psi`, and their length.
+    noise: f64,
 }
 
 impl Sums {
@@ -235,7 +239,9 @@ impl Sums {
             length += f64::from(sums.length);
             self.add_block(&sums);
         }
-        self.stretches += length / f64::from(covariance.stretch_px());
+        let stretch = f64::from(covariance.stretch_px());
+        self.stretches += length / stretch;
+        self.noise += length * stretch * f64::from(covariance.bins[0]);
     }
 
     fn add_block(&mut self, block: &Block) {
@@ -250,18 +256,30 @@ impl Sums {
     /// negative, and a part of the outline that lies on something else would hold a number the wrong way.
     fn bread(&self) -> Matrix6 {
         let curvature = (self.curvature / self.length.max(1.0)).max(LEAST_CURVATURE);
-        let sum = |even: f64, own: f64| -> Matrix6 {
+        self.mixed(curvature, &self.holding, LEAST_HOLD)
+    }
+
+    /// `M`, with as much of what it were if the outline erred in independent stretches as it needs: a covariance that is cut where it first fails
+    /// to be positive is none of a wave that is as long, and would give it a variance below zero.
+    fn filling(&self) -> Matrix6 {
+        let noise = self.noise / self.length.max(1.0);
+        self.mixed(noise, &self.spread, LEAST_SPREAD)
+    }
+
+    /// A sum over the outline, mixed with as much of what it were if every pixel of length had the part `even` in it as leaves no combination of the six
+    /// parameters less than the part `least` of that.
+    fn mixed(&self, even: f64, own: &Matrix6, least: f64) -> Matrix6 {
+        let sum = |evenly: f64, by_itself: f64| -> Matrix6 {
             core::array::from_fn(|row| {
                 core::array::from_fn(|column| {
-                    even * curvature * self.information[row][column]
-                        + own * self.holding[row][column]
+                    evenly * even * self.information[row][column] + by_itself * own[row][column]
                 })
             })
         };
-        let holds = |even: &f64| inverse_spd(&sum(even - LEAST_HOLD, 1.0 - even)).is_some();
+        let is_enough = |part: &f64| inverse_spd(&sum(part - least, 1.0 - part)).is_some();
         let mixtures = (0..=MIXTURES).map(|k| f64::from(k) / f64::from(MIXTURES));
-        let even = mixtures.into_iter().find(holds).unwrap_or(1.0);
-        sum(even, 1.0 - even)
+        let part = mixtures.into_iter().find(is_enough).unwrap_or(1.0);
+        sum(part, 1.0 - part)
     }
 
     fn covariance(&self) -> Option<PoseCovariance> {
@@ -270,9 +288,10 @@ impl Sums {
         // 6 F(6, n) / chi^2(6) at 95 %, within 1 % for n of 10 and more (Abramowitz and Stegun,
         // table 26.9).
         let few = 1.0 + 4.4 / freedom + 9.0 / (freedom * freedom);
+        let filling = self.filling();
         let spread: Matrix6 = core::array::from_fn(|row| {
             core::array::from_fn(|column| {
-                self.spread[row][column] * few + self.information[row][column] * GRAIN
+                filling[row][column] * few + self.information[row][column] * GRAIN
             })
         });
         PoseCovariance::sandwich(&bread, &spread)
@@ -337,6 +356,37 @@ mod tests {
     /// The number that a sample holds by itself, as its place tells.
     fn held(sample: &BorderPixel) -> [f32; 6] {
         core::array::from_fn(|k| f32::from(u8::from(usize::from(sample.row / 60) == k)))
+    }
+
+    #[test]
+    fn what_errs_less_than_nothing_has_a_variance() {
+        let sums = |spread: [f64; 6]| {
+            let diagonal = |values: [f64; 6]| -> Matrix6 {
+                core::array::from_fn(|row| {
+                    core::array::from_fn(|column| if row == column { values[row] } else { 0.0 })
+                })
+            };
+            let sums = Sums {
+                information: diagonal([1000.0; 6]),
+                holding: diagonal([1000.0; 6]),
+                spread: diagonal(spread),
+                curvature: 1000.0,
+                length: 1000.0,
+                stretches: 100.0,
+                noise: 300.0,
+            };
+            let matrix = sums.covariance().expect("determined").matrix;
+            core::array::from_fn::<f64, 6, _>(|k| matrix[k][k])
+        };
+        let usual = sums([300.0; 6]);
+        let wave = sums([300.0, 300.0, -20.0, 300.0, 300.0, 300.0]);
+        assert!(wave[2] > usual[2] * LEAST_SPREAD, "{wave:?}");
+        assert!((wave[0] / usual[0] - 1.0).abs() < 1e-9);
+        let small = sums([300.0, 300.0, 20.0, 300.0, 300.0, 300.0]);
+        assert!(
+            small[2] < usual[2] / 5.0,
+            "one that is small stays: {small:?}"
+        );
     }
 
     #[test]
