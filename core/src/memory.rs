@@ -51,15 +51,31 @@ pub fn first<'m, T>(
     })
 }
 
-/// Makes room for `needed` values at least; what is there already stays.
+/// Makes room for `needed` values at least of working memory, of which nothing stays where it has to be made: the old is let go of before as much
+/// as is needed is asked for, so that there are never two, and none is larger than that.
 #[cfg(feature = "alloc")]
 pub fn grow<T: Clone + Default>(room: &mut alloc::vec::Vec<T>, needed: usize) {
-    room.resize(needed.max(room.len()), T::default());
+    if needed > room.len() {
+        *room = alloc::vec::Vec::new();
+        room.reserve_exact(needed);
+        room.resize(needed, T::default());
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn memory_that_grows_is_as_long_as_it_has_to_be() {
+        let mut room: std::vec::Vec<u8> = std::vec::Vec::new();
+        for needed in [5, 100, 101, 7] {
+            grow(&mut room, needed);
+            let least = needed.max(if needed == 7 { 101 } else { 0 });
+            assert_eq!([room.len(), room.capacity()], [least; 2]);
+        }
+    }
 
     #[test]
     fn what_is_too_short_is_named() {

@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use super::estimate::standing::leads_elsewhere;
+use super::estimate::standing::{is_other, leads_elsewhere};
 use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
 use super::given::GivenFilm;
 use super::model::FilmModel;
@@ -57,12 +57,12 @@ impl FilmPool {
     }
 
     /// The constants by these profiles, where those that are known do not [stand](Self::stands_by): the film that was followed with them is to be
-    /// followed again. `None` where they stand, and where the profiles do not tell.
+    /// followed again. `None` where they stand, where all profiles lead to no others than they are by the deviations of both, and where these do not tell.
     #[must_use]
     pub fn learnt_again(&self, models: &[FilmModel], given: GivenFilm) -> Option<FilmEstimate> {
         match self.stands_by(models, given) {
             true => None,
-            false => self.estimate(given),
+            false => self.estimate(given).filter(|found| is_other(models, found)),
         }
     }
 

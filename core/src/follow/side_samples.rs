@@ -206,24 +206,22 @@ pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
     numbered(cells).map(|(frame, _)| frame)
 }
 
-/// Those of them that are seen before any side is chosen: every other of those all along the film, and all where the trail rocks.
+/// Those of them that are seen before any side is chosen: every other of those all along a long film, and all where the trail rocks.
 pub(super) fn first_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
     let is_first = |&(_, number): &(usize, Option<usize>)| number.is_none_or(|k| k % 2 == 0);
     numbered(cells).filter(is_first).map(|(frame, _)| frame)
 }
 
-/// [`frames_for_sides`], those all along the film with their numbers.
+/// [`frames_for_sides`], those all along a film that is long with their numbers: a short one has few.
 fn numbered(cells: &[Cell]) -> impl Iterator<Item = (usize, Option<usize>)> + '_ {
     let posed = || (0..cells.len()).filter(|&frame| cells[frame].found().is_some());
     let every = (posed().count() / LEAST).clamp(1, EVERY);
     let near = |frame: usize| frame.saturating_sub(1)..=frame + 1;
     posed().enumerate().filter_map(move |(k, frame)| {
         let by_itself = cells[frame].fixed || near(frame).any(|frame| rocks(cells, frame));
-        let regular = (k % every == every / 2).then_some(k / every);
-        match by_itself {
-            true => Some((frame, None)),
-            false => regular.map(|number| (frame, Some(number))),
-        }
+        let is_regular = k % every == every / 2;
+        let number = (!by_itself && every == EVERY).then_some(k / every);
+        (is_regular || by_itself).then_some((frame, number))
     })
 }
 

@@ -1,8 +1,8 @@
 //! Whether constants that are known stand by other profiles of their film.
 
-use super::contrast;
 use super::solver::{ATTENUATIONS, EXPECTED_ATTENUATION, EXPECTED_RADIUS, FEW, Fit, ln_of_blur};
 use super::unknowns::{AMOUNT, BLUR, CURVATURE, MOST_COMPONENTS, RADIUS, UNKNOWNS, Vector};
+use super::{FilmEstimate, contrast};
 use crate::film::given::GivenFilm;
 use crate::film::model::FilmModel;
 use crate::film::profile::FilmProfile;
@@ -54,6 +54,29 @@ pub(in crate::film) fn leads_elsewhere(
         || of_metal.any(|(unknown, variance)| is_far(unknown, variance))
 }
 
+/// So many standard deviations of both lie between an estimate and constants that are known where it is another.
+const OTHER: f64 = 2.0;
+
+/// Whether an estimate by all profiles is another than constants that are known, of `models` by the numbers of their components. Some of the profiles
+/// by themselves may lead farther than all of them do.
+#[must_use]
+pub(in crate::film) fn is_other(models: &[FilmModel], found: &FilmEstimate) -> bool {
+    models.iter().enumerate().any(|(number, known)| {
+        let model = found.model(number);
+        let off = [
+            known.constants.curvature - model.constants.curvature,
+            ln(known.constants.blur_px / model.constants.blur_px),
+            ln(known.attenuation / model.attenuation),
+        ];
+        let enhanced = |model: &FilmModel| model.constants.sharpening.amount > 0.0;
+        enhanced(known) != enhanced(&model)
+            || off.iter().enumerate().any(|(k, off)| {
+                let variance = known.covariance[k][k] + model.covariance[k][k];
+                off.abs() > OTHER * sqrt(variance)
+            })
+    })
+}
+
 /// The unknowns as they are known of components by their numbers, on profiles of a contrast.
 fn known_of(models: &[FilmModel], contrast: f64) -> Vector {
     let mut at = [EXPECTED_ATTENUATION[0]; UNKNOWNS];
@@ -91,4 +114,51 @@ fn best_near(fit: &mut Fit<'_>, known: &Vector) -> Option<Vector> {
     });
     let best = led_to.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(best.1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::FilmConstants;
+    use crate::film::estimate::DisplayKnowledge;
+    use crate::film::sharpening::MetalContrast;
+
+    /// What is known, the attenuation of the second component's metal so many times as large, and what is found.
+    fn pair(times: f64) -> ([FilmModel; 2], FilmEstimate) {
+        let mut covariance = [[0.0; UNKNOWNS]; UNKNOWNS];
+        (0..UNKNOWNS).for_each(|k| covariance[k][k] = 0.01);
+        let found = FilmEstimate {
+            constants: FilmConstants::plain(0.006, 1.4),
+            attenuation: [1.4; MOST_COMPONENTS],
+            metal: [MetalContrast::default(); MOST_COMPONENTS],
+            covariance,
+            display: DisplayKnowledge::Told,
+            contrast: 40.0,
+            profiles: 1000,
+            residual: 0.5,
+        };
+        let mut known = [found.model(0), found.model(1)];
+        known[1].attenuation *= times;
+        (known, found)
+    }
+
+    #[test]
+    fn an_estimate_is_another_by_the_deviations_of_both() {
+        for (times, other) in [
+            (1.0, false),
+            (1.2, false),
+            (0.8, false),
+            (1.5, true),
+            (0.6, true),
+        ] {
+            let (known, found) = pair(times);
+            assert_eq!(is_other(&known, &found), other, "{times}");
+        }
+        let (mut known, found) = pair(1.0);
+        known[0].constants.sharpening = Sharpening {
+            amount: 0.5,
+            radius_px: 1.5,
+        };
+        assert!(is_other(&known, &found));
+    }
 }

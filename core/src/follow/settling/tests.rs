@@ -115,11 +115,7 @@ fn a_way_that_rocks_after_sides_were_chosen_is_seen_from_both_sides_there() {
         }
         frames
     };
-    assert_eq!(see(&mut settling, &mut cells), [2, 10, 18]);
-    settling.next(&mut cells);
-    settling.choose(None);
-    // Its sides are 7 degrees apart, which is not far.
-    assert_eq!(see(&mut settling, &mut cells), [6, 14, 22]);
+    assert_eq!(see(&mut settling, &mut cells), [2, 6, 10, 14, 18, 22]);
     settling.next(&mut cells);
     settling.choose(None);
     cells[12] = Cell::on_the_way(looked(Ok(turned(6.0, 0.2))));
@@ -129,15 +125,15 @@ fn a_way_that_rocks_after_sides_were_chosen_is_seen_from_both_sides_there() {
     assert_eq!(see(&mut settling, &mut cells), [], "each is seen once");
 }
 
-/// Frames 2, 10 and 18 of 24 are seen first; what lies behind the last is not between two.
+/// Frames 4, 20 and 36 of 48 are seen first; what lies behind the last is not between two.
 #[test]
 fn frames_between_two_that_tell_are_not_seen() {
     let seen = |apart_deg: f64, times: f64, left_px: f64| {
-        let mut cells: Vec<Cell> = (0..24)
+        let mut cells: Vec<Cell> = (0..48)
             .map(|_| Cell::on_the_way(looked(Ok(turned(0.0, 0.2)))))
             .collect();
-        cells[7] = Cell::on_the_way(looked(Ok(turned(0.0, left_px))));
-        let mut settling = Settling::new([0.0; 3], 0..24);
+        cells[11] = Cell::on_the_way(looked(Ok(turned(0.0, left_px))));
+        let mut settling = Settling::new([0.0; 3], 0..48);
         let mut all = Vec::new();
         loop {
             match settling.next(&mut cells) {
@@ -161,9 +157,9 @@ fn frames_between_two_that_tell_are_not_seen() {
         all.sort_unstable();
         all
     };
-    let every = [2, 6, 10, 14, 18, 22];
-    assert_eq!(seen(40.0, 2.0, 0.2), [2, 10, 18, 22]);
-    assert_eq!(seen(40.0, 2.0, 0.3), [2, 6, 10, 18, 22], "one leaves more");
+    let every = [4, 12, 20, 28, 36, 44];
+    assert_eq!(seen(40.0, 2.0, 0.2), [4, 20, 36, 44]);
+    assert_eq!(seen(40.0, 2.0, 0.3), [4, 12, 20, 36, 44], "one leaves more");
     assert_eq!(seen(40.0, 1.05, 0.2), every, "nothing tells");
     assert_eq!(
         seen(10.0, 2.0, 0.2),
@@ -212,9 +208,8 @@ fn what_was_mended_is_seen_from_all_sides_again() {
         }
         words
     };
-    // Nothing that was seen tells what lies between.
-    assert_eq!(words(true), ["sides", "sides", "again", "sides"]);
-    assert_eq!(words(false), ["sides", "sides", "again"]);
+    assert_eq!(words(true), ["sides", "again", "sides"]);
+    assert_eq!(words(false), ["sides", "again"]);
 }
 
 #[test]
@@ -225,8 +220,11 @@ fn what_is_right_is_seen_from_both_sides_and_from_elsewhere_once() {
 #[test]
 fn what_leaves_less_is_gone_over_to_and_seen_anew() {
     let words = order(0.2);
-    let first = ["sides", "choose", "sides", "choose", "go over", "elsewhere"];
-    assert_eq!(words[..6], first, "{words:?}");
+    assert_eq!(
+        words[..4],
+        ["sides", "choose", "go over", "elsewhere"],
+        "{words:?}"
+    );
     let rounds = words.iter().filter(|&&word| word == "sides").count();
-    assert!(rounds <= 2 * (1 + ROUNDS), "{words:?}");
+    assert!(rounds <= 1 + ROUNDS, "{words:?}");
 }
