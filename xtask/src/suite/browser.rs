@@ -72,7 +72,8 @@ fn in_chromium() -> Result<Said> {
         // What the page writes is compared with what the command does.
         tests
             .env("FLUOROPOSE_CHROMIUM", &chromium)
-            .env("FLUOROPOSE_LABORATORY", &laboratory);
+            .env("FLUOROPOSE_LABORATORY", &laboratory)
+            .envs(checked_profile::surroundings());
     })
 }
 
