@@ -23,7 +23,7 @@ const FIREFOX: &str = "browser: the page in Firefox";
 /// words for downloads and dropped files.
 ///
 /// Each of the two has the tests of several files: each start of Firefox takes 3.5 s of a processor.
-const IN_FIREFOX: [&str; 2] = ["firefox/poses.mjs", "firefox/tools.mjs"];
+const IN_FIREFOX: [&str; 2] = ["together/poses.mjs", "together/tools.mjs"];
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
