@@ -58,6 +58,14 @@ function standIn(builds) {
       reader.readAsDataURL(new Blob([bytes]));
     });
 
+  /** @param {{ key: string, kept: string | null }} planned @param {Uint8Array<ArrayBuffer>} built */
+  const keep = async ({ key, kept }, built) => {
+    const text = await textOf(built);
+    if (kept === null) await globalThis.keepLibrary(key, text);
+    // Which a test does not suffer.
+    else if (kept !== text) console.error('the library that was built is not the one that was kept');
+  };
+
   /** In place of a worker. */
   class Librarian {
     /** @type {((event: { data: any }) => void) | null} */
@@ -66,11 +74,10 @@ function standIn(builds) {
     onerror = null;
     /** @type {Worker | null} */
     #own = null;
-    #key = '';
-    /** @type {string | null} */
-    #kept = null;
-    /** The call whose answer is a whole library. */
-    #assembling = 0;
+    /** What the last plan was, and what is kept of it. */
+    #planned = { key: '', kept: /** @type {string | null} */ (null) };
+    /** The call whose answer is a whole library, and of which plan: the next one may be asked for before that is compared. */
+    #assembling = { id: 0, of: this.#planned };
     #hasEnded = false;
     #start;
 
@@ -83,8 +90,9 @@ function standIn(builds) {
     postMessage(message, transfer) {
       if (message.method === 'plan') return void this.#plan(message, transfer);
       if (message.method === 'assemble') {
-        if (!builds && this.#kept !== null) return this.#answer(message, bytesOf(this.#kept));
-        this.#assembling = message.id;
+        const { kept } = this.#planned;
+        if (!builds && kept !== null) return this.#answer(message, bytesOf(kept));
+        this.#assembling = { id: message.id, of: this.#planned };
       }
       this.#own?.postMessage(message, transfer);
     }
@@ -96,11 +104,12 @@ function standIn(builds) {
 
     /** @param {any} message @param {Transferable[]} transfer */
     async #plan(message, transfer) {
-      this.#key = await keyOf(message.input);
-      this.#kept = await keptOf(this.#key);
+      const key = await keyOf(message.input);
+      const kept = await keptOf(key);
       if (this.#hasEnded) return;
+      this.#planned = { key, kept };
       // No view is left to be drawn.
-      if (!builds && this.#kept !== null) return this.#answer(message, 0);
+      if (!builds && kept !== null) return this.#answer(message, 0);
       this.#own ??= this.#hired();
       this.#own.postMessage(message, transfer);
     }
@@ -113,19 +122,12 @@ function standIn(builds) {
     #hired() {
       const worker = this.#start();
       worker.onmessage = ({ data }) => {
-        if (data.type === 'done' && data.id === this.#assembling) void this.#keep(data.output.slice());
+        const { id, of } = this.#assembling;
+        if (data.type === 'done' && data.id === id) void keep(of, data.output.slice());
         this.onmessage?.({ data });
       };
       worker.onerror = (event) => this.onerror?.(event);
       return worker;
-    }
-
-    /** @param {Uint8Array<ArrayBuffer>} built */
-    async #keep(built) {
-      const text = await textOf(built);
-      if (this.#kept === null) await globalThis.keepLibrary(this.#key, text);
-      // Which a test does not suffer.
-      else if (this.#kept !== text) console.error('the library that was built is not the one that was kept');
     }
   }
   globalThis.Worker = new Proxy(Own, {
