@@ -45,4 +45,4 @@ pageTest(`from opening to a pose in ${IN_FIREFOX ? 'Firefox' : 'Chromium'}`, asy
     await page.keyboard.press('0');
     await traceFemur(page);
   });
-});
+}, { builds: true });

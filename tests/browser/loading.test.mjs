@@ -25,7 +25,7 @@ pageTest('the first load', async (page, t) => {
     tell(t, files);
     assert(files.some(({ path }) => /pose-/.test(path)) && files.some(({ path }) => /library-/.test(path)), 'both workers were seen');
   });
-});
+}, { builds: true });
 
 /** @param {import('node:test').TestContext} t @param {import('./support/loading.mjs').Loaded[]} files */
 function tell(t, files) {

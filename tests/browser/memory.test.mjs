@@ -25,7 +25,7 @@ if (!IN_FIREFOX) {
     assert.deepEqual([pagesOf(second), pagesOf(third)], [first, first]);
     // The hint for who opens the first work is gone with it.
     assert.deepEqual(counts(third), counts(second));
-  });
+  }, { builds: true });
 }
 
 /** What is let go may be collected later. @param {MemoryOf} memory */

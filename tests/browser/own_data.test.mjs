@@ -88,7 +88,7 @@ pageTest('own files to a pose', async (page, t) => {
   await step(page, t, 'a camera matrix will do, without any distance', (t) => byCameraMatrix(page, needs, t));
   await step(page, t, 'a window of views is a choice', () => windowOfViews(page));
   await step(page, t, 'a click finds what stands farther away than knees do', (t) => farAway(page, t));
-});
+}, { builds: true });
 
 /** @param {import('playwright-core').Page} page @param {import('playwright-core').Locator} shown @param {import('node:test').TestContext} t */
 async function byCameraMatrix(page, shown, t) {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { cp, mkdir, symlink, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
@@ -79,7 +79,7 @@ async function exampleFolder() {
 
 /** The compiler accepts a right use and refuses a wrong one. @param {string} folder */
 async function typesAreRight(folder) {
-  const compiler = createRequire(new URL('../../web/package.json', import.meta.url)).resolve('typescript/bin/tsc');
+  const compiler = join(dirname(createRequire(new URL('../../web/package.json', import.meta.url)).resolve('typescript/package.json')), 'bin/tsc');
   const options = ['--noEmit', '--strict', '--skipLibCheck', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom'];
   const program = (/** @type {string} */ outline) => `
     import { openImplant, type Pose } from 'fluoropose';

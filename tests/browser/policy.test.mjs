@@ -48,7 +48,7 @@ pageTest('a whole workflow breaks no rule and asks nobody', async (page, t) => {
     }
     assert.deepEqual(await violations(page), []);
   });
-});
+}, { builds: true });
 
 pageTest('what the policy forbids is refused', async (page, t) => {
   const other = await new Host(await temporaryFolder(), '/').start();

@@ -46,7 +46,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
   });
 
   await step(page, t, 'the tibia: two candidates, X shows the other', (t) => tibiaCandidates(page, stage, t));
-});
+}, { builds: true });
 
 /**
  * @param {import('playwright-core').Page} page

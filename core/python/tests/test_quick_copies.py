@@ -7,7 +7,7 @@ import dataclasses
 import multiprocessing
 import pickle
 import unittest
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -22,6 +22,14 @@ def pose(given: tuple[fp.Model, fp.Camera, Any]) -> fp.Estimate:
 
 
 class Copies(OnTheDemo):
+    film: ClassVar[fp.Track]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        fixed = {name: fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia")}
+        cls.film = fp.track(DEMO / "frames", cls.femur, cls.tibia, cls.camera, "left", 15.0, fixed=fixed)
+
     def test_models_and_cameras_are_the_same_after_pickling(self) -> None:
         of_matrix = fp.Camera(self.camera.matrix(1024, 1024), (1024, 1024))
         for camera in (self.camera, of_matrix):
@@ -34,8 +42,7 @@ class Copies(OnTheDemo):
             np.testing.assert_array_equal(other.faces, self.tibia.faces, strict=True)
 
     def test_results_are_the_same_after_pickling(self) -> None:
-        fixed = {name: fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia")}
-        film = fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", 15.0, fixed=fixed)
+        film = self.film
         other: fp.Track = pickle.loads(pickle.dumps(film))
         assert film.femur is not None and other.femur is not None
         np.testing.assert_array_equal(other.femur.pose, film.femur.pose)
@@ -56,8 +63,7 @@ class Copies(OnTheDemo):
     def test_equality_is_of_what_they_hold_and_nan_is_nan(self) -> None:
         masks = [fp.read_frames(DEMO / "masks/femur")[0], np.zeros((1024, 1024), bool)]
         found, nothing = (fp.estimate(mask, self.femur, self.camera) for mask in masks)
-        fixed = {name: fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia")}
-        film = fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", 15.0, fixed=fixed)
+        film = self.film
         joint = film.kinematics()
         for one in (found, nothing, nothing.pose, found.rivals, film, film.femur, joint, joint.by_flexion, self.femur):
             other = pickle.loads(pickle.dumps(one))

@@ -21,21 +21,30 @@ impl<'a, P: Pixel, W: AsRef<[Word]>> Shuttered<'a, P, W> {
         Ok(Self { frame, words })
     }
 
-    /// Whether none of the pixels around a place that the frame has is behind the shutter.
-    fn is_open(&self, [column, row]: [f64; 2]) -> bool {
-        let (column, row) = (column - 0.5, row - 0.5);
-        // Beyond the frame it is the frame that gives nothing.
-        if !(column >= 0.0 && row >= 0.0) {
-            return true;
-        }
-        let (left, above) = (column as usize, row as usize);
-        // The next pixel counts for nothing at a centre.
-        let right = u32::from(column > left as f64);
-        let down = u32::from(row > above as f64);
-        let counted = 1 | right << 1 | down << 2 | (right & down) << 3;
-        let (width, height) = (self.frame.width(), self.frame.height());
-        Mask::of_checked(self.words.as_ref(), width, height).square(left, above) & counted == 0
+    /// What is behind the shutter.
+    fn behind(&self) -> Mask<'_> {
+        Mask::of_checked(self.words.as_ref(), self.frame.width(), self.frame.height())
     }
+}
+
+/// Whether none of the pixels around a place that the frame has is behind the shutter. Neither generic nor a method, so that it is compiled here and not by whoever has a frame.
+fn is_open(behind: &Mask<'_>, [column, row]: [f64; 2]) -> bool {
+    let (column, row) = (column - 0.5, row - 0.5);
+    // Beyond the frame it is the frame that gives nothing.
+    if !(column >= 0.0 && row >= 0.0) {
+        return true;
+    }
+    let (left, above) = (column as usize, row as usize);
+    // The next pixel counts for nothing at a centre.
+    let right = u32::from(column > left as f64);
+    let down = u32::from(row > above as f64);
+    let counted = 1 | right << 1 | down << 2 | (right & down) << 3;
+    behind.square(left, above) & counted == 0
+}
+
+/// The same of so many places of a line.
+fn are_open(behind: &Mask<'_>, line: &StraightLine, count: usize) -> bool {
+    (0..count).all(|number| is_open(behind, line.place(number)))
 }
 
 impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
@@ -44,13 +53,11 @@ impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
     }
 
     fn at(&self, column: f64, row: f64) -> Option<f64> {
-        self.is_open([column, row])
-            .then(|| self.frame.at(column, row))?
+        is_open(&self.behind(), [column, row]).then(|| self.frame.at(column, row))?
     }
 
     fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64> {
-        self.is_open([column, row])
-            .then(|| self.frame.at_through(column, row, curve))?
+        is_open(&self.behind(), [column, row]).then(|| self.frame.at_through(column, row, curve))?
     }
 
     fn add_along(
@@ -60,8 +67,7 @@ impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
         weight: f64,
         sums: &mut [f64],
     ) -> Option<()> {
-        let mut places = (0..sums.len()).map(|number| line.place(number));
-        if places.all(|place| self.is_open(place)) {
+        if are_open(&self.behind(), line, sums.len()) {
             return self.frame.add_along(line, curve, weight, sums);
         }
         None

@@ -8,6 +8,7 @@ import { mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { after, test } from 'node:test';
 import { chromium, firefox } from 'playwright-core';
+import { keepLibraries } from './kept_libraries.mjs';
 
 /**
  * After so long the page hangs. No test says how fast it is (`cargo xtask bench --browser` does): a step that takes ten seconds alone
@@ -71,11 +72,12 @@ after(async () => (await launched)?.close());
  *
  * @param {string} name
  * @param {(page: import('playwright-core').Page, t: import('node:test').TestContext) => Promise<void>} body
- * @param {{ refusals?: boolean }} [options] `refusals`: the test provokes errors that the browser logs
+ * @param {{ refusals?: boolean, builds?: boolean }} [options] `refusals`: the test provokes errors that the browser logs; `builds`: its page draws the views of all its
+ * libraries, as it does for a person, whatever another page has built before
  */
-export function pageTest(name, body, { refusals = false } = {}) {
+export function pageTest(name, body, { refusals = false, builds = false } = {}) {
   test(name, { timeout: 3 * PATIENCE }, async (t) => {
-    const { page, troubles } = await freshPage();
+    const { page, troubles } = await freshPage(builds);
     try {
       await body(page, t);
     } catch (error) {
@@ -108,9 +110,10 @@ export async function step(page, t, name, body) {
   });
 }
 
-/** An empty page, and the list of what goes wrong in it. */
-async function freshPage() {
+/** An empty page, and the list of what goes wrong in it. @param {boolean} builds */
+async function freshPage(builds) {
   const page = await openWindow({ serviceWorkers: 'block' });
+  await keepLibraries(page.context(), { builds });
   const troubles = watch(page);
   await visit(page);
   return { page, troubles };

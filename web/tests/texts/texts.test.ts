@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import ts from 'typescript';
+import { parseSync, type ESTree } from 'vite';
 import { describe, expect, it } from 'vitest';
 import { filesBelow } from '../../build/files.ts';
 import { en } from '../../src/texts/en';
@@ -35,38 +35,51 @@ describe('texts', () => {
 
 /** Words in a view that a person would see or hear: text between tags, and literals in attributes for people. */
 function literalsOf(name: string, source: string): string[] {
-  const file = ts.createSourceFile(name, source, ts.ScriptTarget.ESNext, true, ts.ScriptKind.TSX);
+  const { program, errors } = parseSync(name, source);
+  expect(errors).toEqual([]);
   const found: string[] = [];
   const note = (text: string) => {
     const words = text.trim().replace(/\s+/g, ' ');
     if (!SAME_EVERYWHERE.test(words)) found.push(`${name}: ${words}`);
   };
-  const visit = (node: ts.Node): void => {
-    if (ts.isJsxText(node)) note(node.text);
-    else if (ts.isJsxAttribute(node) && !SPOKEN.has(node.name.getText())) return visitElements(node);
-    else if (ts.isJsxExpression(node) || ts.isJsxAttribute(node)) return notes(node);
-    ts.forEachChild(node, visit);
+  const visit = (node: Node): void => {
+    if (node.type === 'JSXText') note(node.value);
+    else if (node.type === 'JSXAttribute' && !SPOKEN.has(nameOf(node.name))) visitElements(node);
+    else if (node.type === 'JSXExpressionContainer' || node.type === 'JSXAttribute') notes(node);
+    else childrenOf(node).forEach(visit);
   };
   /** Literals that may become the value, and elements within. */
-  const notes = (node: ts.Node): void => {
-    if (ts.isStringLiteral(node) || ts.isNoSubstitutionTemplateLiteral(node)) note(node.text);
-    else if (ts.isTemplateExpression(node)) note([node.head.text, ...node.templateSpans.map(({ literal }) => literal.text)].join(' '));
-    else if (ts.isConditionalExpression(node)) [node.whenTrue, node.whenFalse].forEach(notes);
-    else if (ts.isBinaryExpression(node)) [node.left, node.right].filter((side) => !isComparison(node) || side === node.right).forEach((side) => isComparison(node) || notes(side));
-    else if (ts.isJsxElement(node) || ts.isJsxSelfClosingElement(node) || ts.isJsxFragment(node)) visit(node);
-    else if (ts.isParenthesizedExpression(node) || ts.isJsxExpression(node) || ts.isJsxAttribute(node)) ts.forEachChild(node, notes);
-    else visitElements(node);
+  const notes = (node: Node): void => {
+    if (node.type === 'Literal') return typeof node.value === 'string' ? note(node.value) : undefined;
+    if (node.type === 'TemplateLiteral') return note(node.quasis.map(({ value }) => value.cooked).join(' '));
+    if (node.type === 'ConditionalExpression') return [node.consequent, node.alternate].forEach(notes);
+    if (node.type === 'BinaryExpression' && COMPARISON.test(node.operator)) return;
+    if (WITH_VALUES.has(node.type)) return childrenOf(node).forEach(notes);
+    if (ELEMENTS.has(node.type)) return visit(node);
+    visitElements(node);
   };
-  const visitElements = (node: ts.Node): void =>
-    ts.forEachChild(node, (child) =>
-      ts.isJsxElement(child) || ts.isJsxSelfClosingElement(child) || ts.isJsxFragment(child) ? visit(child) : visitElements(child),
-    );
-  visit(file);
+  const visitElements = (node: Node): void => childrenOf(node).forEach((child) => (ELEMENTS.has(child.type) ? visit(child) : visitElements(child)));
+  visit(program);
   return found;
 }
 
-function isComparison({ operatorToken }: ts.BinaryExpression): boolean {
-  return /^[!=]==?$/.test(operatorToken.getText());
+const COMPARISON = /^[!=]==?$/;
+const ELEMENTS = new Set(['JSXElement', 'JSXFragment']);
+/** One of their parts may become the value. */
+const WITH_VALUES = new Set(['LogicalExpression', 'BinaryExpression', 'AssignmentExpression', 'ParenthesizedExpression', 'JSXExpressionContainer', 'JSXAttribute']);
+
+type Node = ESTree.Node;
+
+function childrenOf(node: Node): Node[] {
+  return Object.values(node).flat().filter(isNode);
+}
+
+function isNode(value: unknown): value is Node {
+  return typeof value === 'object' && value !== null && 'type' in value;
+}
+
+function nameOf(name: ESTree.JSXAttributeName): string {
+  return name.type === 'JSXIdentifier' ? name.name : `${name.namespace.name}:${name.name.name}`;
 }
 
 function leavesOf(value: unknown, path = ''): [string, unknown][] {

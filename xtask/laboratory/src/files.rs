@@ -15,12 +15,14 @@ mod role;
 mod study;
 mod text;
 
+pub use fluoropose_noise::MaskBuffer;
+
 pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};
 pub use listing::{files_in, gaps_in};
-pub use mask::{MaskBuffer, read_mask};
+pub use mask::read_mask;
 pub use model::{
     Unit, other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,

@@ -8,7 +8,7 @@ pub mod signals;
 
 pub mod files;
 
-pub mod noise;
+pub use fluoropose_noise as noise;
 
 pub mod sequence;
 

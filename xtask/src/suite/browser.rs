@@ -23,7 +23,7 @@ const FIREFOX: &str = "browser: the page in Firefox";
 /// words for downloads and dropped files.
 ///
 /// Each of the two has the tests of several files: each start of Firefox takes 3.5 s of a processor.
-const IN_FIREFOX: [&str; 2] = ["firefox/poses.mjs", "firefox/tools.mjs"];
+const IN_FIREFOX: [&str; 2] = ["together/poses.mjs", "together/tools.mjs"];
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
@@ -47,6 +47,8 @@ pub(crate) fn run(report: &mut Report) {
     report.step(PACKAGES, || {
         package::make(&dist(), &package::usual_folder()).map(|_| Said::default())
     });
+    // Of an earlier page.
+    let _ = std::fs::remove_dir_all(kept_libraries());
     // Beside each other: Chromium waits for the laboratory's program, which the native suite compiles meanwhile, and both wait for
     // screen frames most of the time.
     let lane = |name| Lane { name, gives_way: 0 };
@@ -70,7 +72,8 @@ fn in_chromium() -> Result<Said> {
         // What the page writes is compared with what the command does.
         tests
             .env("FLUOROPOSE_CHROMIUM", &chromium)
-            .env("FLUOROPOSE_LABORATORY", &laboratory);
+            .env("FLUOROPOSE_LABORATORY", &laboratory)
+            .envs(checked_profile::surroundings());
     })
 }
 
@@ -85,18 +88,26 @@ fn folder() -> PathBuf {
     workspace::root().join("tests/browser")
 }
 
+/// What pages of one run have built (`tests/browser/support/kept_libraries.mjs`).
+fn kept_libraries() -> PathBuf {
+    workspace::target_dir().join("libraries-of-pages")
+}
+
 /// Serves the page and runs files of `tests/browser` against it; `with` says in which browser.
 ///
 /// Two cores are busy with few of them: six at a time take a fifth more processor time than two (`tests/records/tests.md`).
 fn drive(files: Vec<String>, at_once: usize, with: &(dyn Fn(&mut Command) + Sync)) -> Result<Said> {
     let node = node::node()?;
     node::install(&folder())?;
+    let libraries = kept_libraries();
+    std::fs::create_dir_all(&libraries)?;
     let server = Server::start(&dist(), 0)?;
     test_files::run(&folder(), files, at_once, &|| {
         let mut tests = Command::new(&node);
         tests
             .env("FLUOROPOSE_URL", server.url())
-            .env("FLUOROPOSE_PACKAGE", package::usual_folder());
+            .env("FLUOROPOSE_PACKAGE", package::usual_folder())
+            .env("FLUOROPOSE_LIBRARIES", &libraries);
         with(&mut tests);
         tests
     })

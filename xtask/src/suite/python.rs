@@ -7,7 +7,7 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use fluoropose_phantom::sequence::{self, Options};
 
-use super::checked_profile::CHECKED;
+use super::checked_profile::{self, CHECKED};
 use super::counts;
 use super::report::{Report, Said};
 use crate::setup::rust_target::own_cargo;
@@ -199,7 +199,9 @@ fn tests(python: &Path, pattern: &str, package: Option<&Path>) -> Result<Said> {
         .env("FLUOROPOSE_SKIPPED", &notes)
         .env("PYTHONDONTWRITEBYTECODE", "1");
     if let Some(package) = package {
-        tests.env("PYTHONPATH", package);
+        tests
+            .env("PYTHONPATH", package)
+            .envs(checked_profile::surroundings());
     }
     let told = command::tee_all(&mut tests)?;
     told.or_failed("a test of the Python package", telling::of_unittest)?;

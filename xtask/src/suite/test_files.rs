@@ -15,18 +15,20 @@ use crate::setup::failed::Failed;
 use crate::setup::telling;
 
 /// The longest, which begin first.
-const LONG: [&str; 15] = [
+const LONG: [&str; 17] = [
     "shuttered",
     "following",
     "publishing",
+    "together/work.mjs",
+    "together/small.mjs",
+    "together/poses.mjs",
+    "together/tools.mjs",
     "from_nothing",
     "crash",
     "certainty",
     "bad_input",
     "seeing",
     "axe",
-    "edges",
-    "new_user",
     "hand",
     "by_keys",
     "own_data",
@@ -89,14 +91,34 @@ pub(super) fn run(
     Ok(said.with_words(words, told_of(&failed)))
 }
 
-/// The names of all files of tests in a folder.
+/// The names of all files of tests in a folder; those of several that stand together there in place of each of these.
 pub(super) fn all_in(folder: &Path) -> Result<Vec<String>> {
+    let mut names = names_in(folder, ".test.mjs")?;
+    for several in names_in(&folder.join(TOGETHER), ".mjs")? {
+        let several = format!("{TOGETHER}/{several}");
+        let text = fs::read_to_string(folder.join(&several))?;
+        let own: Vec<&str> = text.lines().filter_map(imported).collect();
+        names.retain(|name| !own.contains(&name.as_str()));
+        names.push(several);
+    }
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Where files have the tests of several.
+const TOGETHER: &str = "together";
+
+/// The file beside the folder whose tests a line imports.
+fn imported(line: &str) -> Option<&str> {
+    line.strip_prefix("import '../")?.strip_suffix("';")
+}
+
+fn names_in(folder: &Path, end: &str) -> Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
-        names.extend(name.ends_with(".test.mjs").then_some(name));
+        names.extend(name.ends_with(end).then_some(name));
     }
-    names.sort_unstable();
     Ok(names)
 }
 
@@ -201,6 +223,30 @@ mod tests {
         });
         fs::remove_dir_all(&folder)?;
         said
+    }
+
+    #[test]
+    fn each_file_of_the_tests_is_driven_by_itself_or_with_others() {
+        let folder = crate::workspace::root().join("tests/browser");
+        let mut driven = Vec::new();
+        for name in all_in(&folder).unwrap() {
+            let text = fs::read_to_string(folder.join(&name)).unwrap();
+            if name.starts_with(TOGETHER) {
+                let own: Vec<&str> = text.lines().filter_map(imported).collect();
+                assert_eq!(own.len(), text.matches("import").count(), "{name}");
+                driven.extend(own.into_iter().map(str::to_owned));
+            } else {
+                driven.push(name);
+            }
+        }
+        driven.sort_unstable();
+        let mut all = names_in(&folder, ".test.mjs").unwrap();
+        all.sort_unstable();
+        assert_eq!(driven, all);
+        assert!(
+            LONG.iter().all(|long| folder.join(long).exists()
+                || folder.join(format!("{long}.test.mjs")).exists())
+        );
     }
 
     #[test]

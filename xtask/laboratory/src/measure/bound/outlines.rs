@@ -10,9 +10,8 @@ use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{OutlineSample, RefineOptions, outline_samples};
 use fluoropose::render::render;
+use fluoropose_noise::bound::{Limits, Site, limits};
 
-use super::limits::{Limits, limits};
-use super::sites::Site;
 use super::table::{Limit, PoseLimits};
 use crate::files::MaskBuffer;
 use crate::finding::Refiner;

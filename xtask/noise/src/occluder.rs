@@ -8,7 +8,7 @@ use fluoropose::image::mask::Mask;
 use rand::{Rng, RngExt};
 
 use super::curve::Curve;
-use crate::files::MaskBuffer;
+use crate::mask_buffer::MaskBuffer;
 
 /// The shape of an occluder, without its size.
 #[derive(Clone, Copy, Debug, PartialEq)]

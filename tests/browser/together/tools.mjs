@@ -1,4 +1,4 @@
-/** Every tool and the keys, in one Firefox, as `poses.mjs`. */
+/** Every tool and the keys, in one browser, as `poses.mjs`. */
 import '../keys.test.mjs';
 import '../outline_tools.test.mjs';
 import '../tool_keys.test.mjs';

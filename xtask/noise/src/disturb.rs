@@ -13,7 +13,7 @@ use super::curve::{Curve, Sampling, curves, widened};
 use super::fill::{Painted, filled};
 use super::jitter::{Correlation, Waves};
 use super::occluder::Occluder;
-use crate::files::MaskBuffer;
+use crate::mask_buffer::MaskBuffer;
 
 /// How masks are disturbed before poses are found.
 #[derive(clap::Args, Clone, Copy, Debug, PartialEq)]

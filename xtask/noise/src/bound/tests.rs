@@ -3,15 +3,14 @@
 use super::cholesky::Cholesky;
 use super::limits::{covariance, limits, white_information};
 use super::sites::Site;
-use crate::finding::Refiner;
-use crate::noise::jitter::{Correlation, Waves};
-use crate::noise::{DisturbanceOptions, Noise};
+use crate::jitter::{Correlation, Waves};
+use crate::{DisturbanceOptions, Noise};
 use fluoropose::camera::Camera;
 use fluoropose::math::{Matrix3, add, apply, multiply, scale};
 use fluoropose::mesh::Model;
 use fluoropose::pose::covariance::{Matrix6, PoseCovariance};
 use fluoropose::pose::{EulerPose, Pose, Quaternion};
-use fluoropose::refine::{OutlineSample, outline_samples};
+use fluoropose::refine::{OutlineSample, RefineBuffers, outline_samples};
 use fluoropose::render::{render, scratch_needed};
 use fluoropose_phantom::implant::{Parameters, femur};
 use rand::{Rng, SeedableRng};
@@ -216,7 +215,7 @@ fn moved(pose: &Pose, middle: &[f64; 3], step: [f64; 6]) -> Pose {
 fn distances(mesh: &Model<'_>, camera: &Camera, pose: &Pose, at: &[OutlineSample]) -> Vec<f64> {
     const FINE: usize = 4;
     let fine = camera.supersampled(FINE).unwrap();
-    let mut drawn = crate::files::MaskBuffer::new(fine.width(), fine.height()).unwrap();
+    let mut drawn = crate::mask_buffer::MaskBuffer::new(fine.width(), fine.height()).unwrap();
     let mut scratch = vec![Default::default(); scratch_needed(mesh)];
     drawn
         .draw(|mask| render(mesh, &fine, pose, &mut scratch, mask))
@@ -254,13 +253,13 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
         x_rot_deg: 7.0,
         y_rot_deg: -11.0,
     });
-    let mut refiner = Refiner::new(mesh, fluoropose::refine::RefineOptions::default());
+    let mut buffers = RefineBuffers::default();
     let mut samples = Vec::new();
     outline_samples(
         &mesh,
         &camera,
         &pose,
-        &mut refiner.memory(&camera),
+        &mut buffers.borrow(&mesh, &camera),
         |sample| {
             samples.push(*sample);
         },

@@ -4,8 +4,8 @@ use fluoropose::pose::covariance::{Matrix6, PoseCovariance};
 
 use super::cholesky::{Cholesky, Lower};
 use super::sites::{self, Site};
-use crate::noise::Noise;
-use crate::noise::jitter::Correlation;
+use crate::Noise;
+use crate::jitter::Correlation;
 
 /// The two covariances of a pose: see the module.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use rand::RngExt;
 use super::disturb::{DisturbanceOptions, Disturbed};
 use super::frame_cut::cut_off;
 use super::level::Noise;
-use crate::files::MaskBuffer;
+use crate::mask_buffer::MaskBuffer;
 
 /// A model, a camera, and how what it sees is disturbed.
 pub struct Scene<'m> {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::MaskMut;
 
-use crate::files::MaskBuffer;
+use crate::mask_buffer::MaskBuffer;
 
 /// A polygon (clockwise on the screen) and whether what it encloses is taken out of the mask.
 pub type Painted<'a> = (&'a [Point], bool);

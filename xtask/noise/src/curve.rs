@@ -10,7 +10,7 @@ use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::Mask;
 
 use super::fill::filled;
-use crate::files::MaskBuffer;
+use crate::mask_buffer::MaskBuffer;
 
 /// Corners of one border that are kept: four times as many as an outline in a large frame has.
 const CORNERS: usize = 1 << 16;

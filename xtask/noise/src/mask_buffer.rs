@@ -1,0 +1,158 @@
+//! Silhouettes with their own memory.
+
+use anyhow::{Result, bail};
+use fluoropose::image::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
+use fluoropose::image::region::largest_region;
+
+/// Specks are at most this part of the silhouette, percent.
+const SPECK_SHARE: u64 = 10;
+
+/// A silhouette with its own memory.
+#[derive(Clone, Debug)]
+pub struct MaskBuffer {
+    words: Vec<Word>,
+    width: usize,
+    height: usize,
+}
+
+impl MaskBuffer {
+    /// An empty mask of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn new(width: usize, height: usize) -> Result<Self> {
+        let mut words = vec![0; words_needed(width, height)];
+        MaskMut::new(&mut words, width, height)?;
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
+    /// The mask of an image, row by row: what is not 0 is set.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn of_pixels(pixels: &[u8], width: usize, height: usize) -> Result<Self> {
+        let mut buffer = Self::new(width, height)?;
+        let word = |pixels: &[u8]| {
+            let bits = pixels.iter().enumerate();
+            bits.fold(0, |word, (bit, &pixel)| {
+                word | (Word::from(pixel != 0) << bit)
+            })
+        };
+        let rows = pixels.chunks_exact(width);
+        let words = rows.flat_map(|row| row.chunks(WORD_BITS).map(word));
+        buffer
+            .words
+            .iter_mut()
+            .zip(words)
+            .for_each(|(own, word)| *own = word);
+        Ok(buffer)
+    }
+
+    /// A copy of a mask.
+    pub fn copy_of(mask: &Mask<'_>) -> Self {
+        Self {
+            words: mask.words().to_vec(),
+            width: mask.width(),
+            height: mask.height(),
+        }
+    }
+
+    /// The mask of which each pixel is `rule` of the same pixels of two masks, bit by bit; `rule`
+    /// must leave 0 where both are 0.
+    ///
+    /// # Errors
+    /// Where the two differ in size.
+    pub fn combined(&self, other: &Self, rule: impl Fn(Word, Word) -> Word) -> Result<Self> {
+        if (self.width, self.height) != (other.width, other.height) {
+            bail!(MaskError::Sizes);
+        }
+        let pairs = self.words.iter().zip(&other.words);
+        Ok(Self {
+            words: pairs.map(|(&a, &b)| rule(a, b)).collect(),
+            ..*self
+        })
+    }
+
+    /// Draws into the cleared mask.
+    pub fn draw<T>(&mut self, draw: impl FnOnce(&mut MaskMut<'_>) -> T) -> T {
+        let mut mask = MaskMut::new(&mut self.words, self.width, self.height)
+            .expect("the shape was checked when the buffer was made");
+        draw(&mut mask)
+    }
+
+    /// The same, but what was drawn before stays.
+    pub fn draw_onto<T>(&mut self, draw: impl FnOnce(&mut MaskMut<'_>) -> T) -> T {
+        let mut mask = MaskMut::onto(&mut self.words, self.width, self.height)
+            .expect("the shape was checked when the buffer was made");
+        draw(&mut mask)
+    }
+
+    /// The mask without specks: its largest region alone where all else is at most a tenth of
+    /// it, as a network or a threshold leaves it; otherwise unchanged, because a silhouette in
+    /// two halves is no matter of specks. Returns the number of pixels dropped.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn drop_specks(&mut self) -> Result<u64> {
+        let blank = || Self::new(self.width, self.height);
+        let (mut rest, mut largest) = (blank()?, blank()?);
+        let dropped =
+            rest.draw(|rest| largest.draw(|out| largest_region(&self.mask(), rest, out)))?;
+        if dropped > SPECK_SHARE * (self.mask().area() - dropped) / 100 {
+            return Ok(0);
+        }
+        *self = largest;
+        Ok(dropped)
+    }
+
+    /// What has been drawn.
+    pub fn mask(&self) -> Mask<'_> {
+        Mask::new(&self.words, self.width, self.height)
+            .expect("drawing keeps the bits beyond a row's end clear")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn squares(sides: &[usize]) -> MaskBuffer {
+        let mut buffer = MaskBuffer::new(200, 100).unwrap();
+        buffer.draw(|mask| {
+            for (index, &side) in sides.iter().enumerate() {
+                for pixel in 0..side * side {
+                    mask.set(70 * index + pixel % side, 5 + pixel / side, true);
+                }
+            }
+        });
+        buffer
+    }
+
+    #[test]
+    fn pixels_become_bits_one_for_one() {
+        for width in [1, 31, 32, 33, 70] {
+            let pixels: Vec<u8> = (0..width * 5).map(|k| ((k * 7) % 3) as u8 * 100).collect();
+            let buffer = MaskBuffer::of_pixels(&pixels, width, 5).unwrap();
+            for (k, &pixel) in pixels.iter().enumerate() {
+                assert_eq!(buffer.mask().get(k % width, k / width), pixel != 0);
+            }
+        }
+        assert!(MaskBuffer::of_pixels(&[], 0, 5).is_err());
+    }
+
+    #[test]
+    fn specks_go_and_halves_stay() {
+        let mut specked = squares(&[50, 3]);
+        assert_eq!(specked.drop_specks().unwrap(), 9);
+        assert_eq!(specked.mask().area(), 2500);
+        let mut halves = squares(&[50, 40]);
+        assert_eq!(halves.drop_specks().unwrap(), 0);
+        assert_eq!(halves.mask().area(), 4100);
+        let mut empty = squares(&[]);
+        assert_eq!(empty.drop_specks().unwrap(), 0);
+    }
+}
