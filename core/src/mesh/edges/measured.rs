@@ -28,9 +28,12 @@ pub(super) fn contour_of(
             continue;
         };
         let corners = [from, to, forth, back];
-        match faces_surely(place, margins, corners) {
-            Some([forth, back]) if forth == back => {}
-            sides => visit(edge, sides),
+        match surely_off(place, margins, corners) {
+            // One of them is below zero, so both triangles face the camera, or neither does: by the bits of their signs in a third of the
+            // instructions of two comparisons.
+            Some([forth, back]) if (forth.to_bits() ^ back.to_bits()) >> 31 != 0 => {}
+            Some([forth, back]) => visit(edge, Some([forth < 0.0, back > 0.0])),
+            None => visit(edge, None),
         }
     }
 }
@@ -38,18 +41,19 @@ pub(super) fn contour_of(
 /// Twelve roundings to 32 bits of the three components of a way, together, as part of its length.
 pub(crate) const ROUNDINGS: f32 = 12.0 * 1.75 * f32::EPSILON;
 
-/// Whether the triangles forth and back beside an edge face the camera, of its ends and both third corners.
+/// How far the camera is from the planes of the triangles forth and back beside an edge, each times a doubled area, of its ends and both third
+/// corners, where both signs are certain. It faces the first below zero, the second above.
 ///
 /// Doubled area times distance from the plane is a determinant of two sides and the way from the camera. Sides are
 /// differences of numbers of 32 bits, so they err by one rounding of themselves alone, and the determinant by less than
 /// twelve roundings of the product of three lengths; a doubled area is below the product of its longest side with itself. That
 /// side is no longer than the two that are measured together.
 #[inline(always)]
-fn faces_surely(
+fn surely_off(
     place: &[f32; 3],
     margins: [f32; 3],
     [from, to, forth, back]: [&[f32; 3]; 4],
-) -> Option<[bool; 2]> {
+) -> Option<[f32; 2]> {
     let (edge, way) = (minus(to, from), minus(place, from));
     // Both determinants are of the edge as it is run forth, the way and one more side.
     let across = [
@@ -60,7 +64,7 @@ fn faces_surely(
     let along = length(&edge);
     let forth = from_plane(&across, along, &minus(forth, from), margins)?;
     let back = from_plane(&across, along, &minus(back, from), margins)?;
-    Some([forth < 0.0, back > 0.0])
+    Some([forth, back])
 }
 
 /// How far the camera is from the plane of a triangle, times its doubled area, where the sign is certain. By itself in each of the two
