@@ -84,12 +84,16 @@ impl FixedPoint {
 
     /// Column and row, pixels.
     pub(crate) fn place(self) -> [f32; 2] {
-        [self.column, self.row].map(|value| value as f32 / ONE as f32)
+        // Of `map` some compilers leave a loop.
+        [
+            self.column as f32 / ONE as f32,
+            self.row as f32 / ONE as f32,
+        ]
     }
 
     /// Column and row in units of 1/4096 pixel: exact up to 4096 pixels.
     pub(crate) fn units(self) -> [f32; 2] {
-        [self.column, self.row].map(|value| value as f32)
+        [self.column as f32, self.row as f32]
     }
 
     pub(crate) fn is_above(self, other: Self) -> bool {

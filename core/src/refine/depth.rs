@@ -35,7 +35,8 @@ impl DrawnModel<'_> {
         let depth = |vertex| axis.depth_of(self.model, vertex);
         let by_edges = self.sampling.depth == Depth::Edges
             && remains.contour(|(vertices, images)| {
-                let images = images.map(Projected::place);
+                let [from, to] = images;
+                let images = [from.place(), to.place()];
                 self.lay_edge((vertices, &depth), images, places, border);
             });
         if !by_edges {
@@ -51,19 +52,21 @@ impl DrawnModel<'_> {
         places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
-        let along: [f32; 2] = core::array::from_fn(|k| to[k] - from[k]);
+        // Of `from_fn` and `map` some compilers leave loops.
+        let along = [to[0] - from[0], to[1] - from[1]];
         // Less than two pixels apart: where the edge passes a border pixel, one of them is in it or
         // beside it. The last is the first of another edge.
         let steps = (along[0].abs().max(along[1].abs()) / 2.0) as usize + 1;
         let mut depths = None;
         for step in 0..steps {
             let fraction = step as f32 / steps as f32;
-            let point = core::array::from_fn(|k| from[k] + fraction * along[k]);
+            let point = [from[0] + fraction * along[0], from[1] + fraction * along[1]];
             let Some(place) = self.pixel(point) else {
                 continue;
             };
             places.around(border, place, |pixel| {
-                let [near, far] = *depths.get_or_insert_with(|| vertices.map(depth));
+                let [near, far] =
+                    *depths.get_or_insert_with(|| [depth(vertices[0]), depth(vertices[1])]);
                 pixel.cover(near + fraction * (far - near));
             });
         }

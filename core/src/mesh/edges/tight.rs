@@ -24,6 +24,37 @@ pub(super) const fn bits_for(vertices: usize) -> usize {
     (usize::BITS - (highest | 1 << 3).leading_zeros()) as usize
 }
 
+/// The bits of the first place of an edge.
+const fn mask(bits: usize) -> u32 {
+    (1 << bits) - 1
+}
+
+/// Whether none of four steps is written as a zero and two bytes (Warren, *Hacker's Delight*, 6-1).
+#[inline(always)]
+fn are_bytes(steps: &[u8; 4]) -> bool {
+    let word = u32::from_le_bytes(*steps);
+    word.wrapping_sub(0x0101_0101) & !word & 0x8080_8080 == 0
+}
+
+/// Reads vertices one by one from the steps between them; zeros follow the last.
+fn read_each(rest: &mut &[u8], before: &mut u16, out: &mut [u16]) {
+    let mut next = || match rest.split_first() {
+        Some((&first, behind)) => {
+            *rest = behind;
+            u16::from(first)
+        }
+        None => 0,
+    };
+    for vertex in out {
+        let mut step = next();
+        if step == 0 {
+            step = next() | next() << 8;
+        }
+        *before = before.wrapping_add(step);
+        *vertex = *before;
+    }
+}
+
 /// Groups of edges, which are found one after another.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TightGroups<'e> {
@@ -58,6 +89,7 @@ pub(crate) struct Group<'r> {
     edges: &'r [EdgePlaces],
     /// Of a place.
     bits: usize,
+    mask: u32,
 }
 
 /// Bits of a place where there are as many vertices as can be; the first four places, and four more of each.
@@ -83,6 +115,7 @@ impl GroupRoom {
             vertices: &self.vertices,
             edges: self.edges.get(..count).unwrap_or_default(),
             bits: MOST_BITS,
+            mask: mask(MOST_BITS),
         }
     }
 }
@@ -95,14 +128,16 @@ impl Group<'_> {
     /// An edge by its vertices.
     #[inline(always)]
     pub(crate) fn edge(&self, edge: EdgePlaces) -> PackedEdge {
-        let (bits, mask) = (self.bits, (1 << self.bits) - 1);
-        let vertex = |places: u32| self.vertices[(places & mask) as usize % MOST_VERTICES];
-        // One after the other: of an iterator some compilers leave a loop.
+        let bits = self.bits;
+        let vertex = |places: u32| self.vertices[(places & self.mask) as usize % MOST_VERTICES];
+        // One after the other: of an iterator some compilers leave a loop. By one bit number, not by its multiples.
+        let second = edge >> bits;
+        let third = second >> bits;
         [
             vertex(edge),
-            vertex(edge >> bits),
-            vertex(edge >> (2 * bits)),
-            vertex(edge >> (3 * bits)),
+            vertex(second),
+            vertex(third),
+            vertex(third >> bits),
         ]
     }
 }
@@ -157,19 +192,27 @@ impl TightGroup<'_> {
 
     /// Its vertices, rising; gives whether no bytes follow them.
     fn read_vertices(&self, out: &mut [u16; MOST_VERTICES]) -> bool {
-        let rest = self.bytes.get(self.widths().1..).unwrap_or_default();
-        let mut rest = rest.iter().copied();
-        let mut next = || u16::from(rest.next().unwrap_or_default());
+        let mut rest = self.bytes.get(self.widths().1..).unwrap_or_default();
         let mut before = u16::MAX;
-        for vertex in out.get_mut(..self.vertices).unwrap_or_default() {
-            let mut step = next();
-            if step == 0 {
-                step = next() | next() << 8;
+        let (fours, others) = out
+            .get_mut(..self.vertices)
+            .unwrap_or_default()
+            .as_chunks_mut();
+        for four in fours {
+            match rest.split_first_chunk() {
+                Some((steps, behind)) if are_bytes(steps) => {
+                    let first = before.wrapping_add(steps[0].into());
+                    let second = first.wrapping_add(steps[1].into());
+                    let third = second.wrapping_add(steps[2].into());
+                    before = third.wrapping_add(steps[3].into());
+                    *four = [first, second, third, before];
+                    rest = behind;
+                }
+                _ => read_each(&mut rest, &mut before, four),
             }
-            before = before.wrapping_add(step);
-            *vertex = before;
         }
-        rest.len() == 0
+        read_each(&mut rest, &mut before, others);
+        rest.is_empty()
     }
 
     /// The edges, written into `room`.
@@ -192,6 +235,7 @@ impl TightGroup<'_> {
             vertices,
             edges: edges.get(..self.edges).unwrap_or_default(),
             bits,
+            mask: mask(bits),
         }
     }
 
