@@ -139,7 +139,8 @@ impl WholeImages {
         let reciprocal = reciprocal(distance) as i32;
         let right = self.translation[0].wrapping_add(turned(right, &vertex));
         let up = self.translation[1].wrapping_add(turned(up, &vertex));
-        let [right, up] = [right, up].map(|place| (product(place, reciprocal) >> 31) as i32);
+        let right = (product(right, reciprocal) >> 31) as i32;
+        let up = (product(up, reciprocal) >> 31) as i32;
         let column = self.principal[0].wrapping_add(product(right, self.focal[0]));
         let row = self.principal[1].wrapping_sub(product(up, self.focal[1]));
         let is_certain = self.is_certain(column) & self.is_certain(row);

@@ -36,22 +36,28 @@ fn are_bytes(steps: &[u8; 4]) -> bool {
     word.wrapping_sub(0x0101_0101) & !word & 0x8080_8080 == 0
 }
 
-/// Reads vertices one by one from the steps between them; zeros follow the last.
-fn read_each(rest: &mut &[u8], before: &mut u16, out: &mut [u16]) {
-    let mut next = || match rest.split_first() {
+/// Reads vertices one by one from the steps between them; zeros follow the last. Gives the steps that are left, and the last vertex: what is
+/// read and written behind references stands in memory.
+fn read_each<'e>(mut rest: &'e [u8], mut before: u16, out: &mut [u16]) -> (&'e [u8], u16) {
+    for vertex in out {
+        let mut step = next_byte(&mut rest);
+        if step == 0 {
+            step = next_byte(&mut rest) | next_byte(&mut rest) << 8;
+        }
+        before = before.wrapping_add(step);
+        *vertex = before;
+    }
+    (rest, before)
+}
+
+#[inline(always)]
+fn next_byte(rest: &mut &[u8]) -> u16 {
+    match rest.split_first() {
         Some((&first, behind)) => {
             *rest = behind;
-            u16::from(first)
+            first.into()
         }
         None => 0,
-    };
-    for vertex in out {
-        let mut step = next();
-        if step == 0 {
-            step = next() | next() << 8;
-        }
-        *before = before.wrapping_add(step);
-        *vertex = *before;
     }
 }
 
@@ -208,10 +214,10 @@ impl TightGroup<'_> {
                     *four = [first, second, third, before];
                     rest = behind;
                 }
-                _ => read_each(&mut rest, &mut before, four),
+                _ => (rest, before) = read_each(rest, before, four),
             }
         }
-        read_each(&mut rest, &mut before, others);
+        (rest, _) = read_each(rest, before, others);
         rest.is_empty()
     }
 
