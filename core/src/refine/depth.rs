@@ -72,12 +72,13 @@ impl DrawnModel<'_> {
         }
     }
 
-    /// The pixel of a point, unless it lies at the frame's border.
+    /// The pixel of a point, unless it lies at the frame's border. Left of the frame and above it numbers are zero, as what is no number is.
     fn pixel(&self, [column, row]: [f32; 2]) -> Option<[usize; 2]> {
-        let (width, height) = (self.drawn.width(), self.drawn.height());
-        let inside =
-            column >= 1.0 && row >= 1.0 && column < (width - 1) as f32 && row < (height - 1) as f32;
-        inside.then_some([column as usize, row as usize])
+        let (column, row) = (column as usize, row as usize);
+        let last = |side: usize| side.saturating_sub(1);
+        let inside = (1..last(self.drawn.width())).contains(&column)
+            && (1..last(self.drawn.height())).contains(&row);
+        inside.then_some([column, row])
     }
 
     /// By itself, because its tiles take up a part of the stack that silhouettes drawn from edges need not have.

@@ -70,8 +70,7 @@ impl<'p> Places<'p> {
         let (before, rows) = (&*self.before, self.rows.len());
         let first = row.saturating_sub(1 + self.rows.start);
         let end = (row + 2).saturating_sub(self.rows.start).min(rows);
-        let ends = before.get(first..end + 1).unwrap_or_default();
-        let (Some(&all), Some(&after)) = (ends.first(), ends.last()) else {
+        let (Some(&all), Some(&after)) = (before.get(first), before.get(end)) else {
             return;
         };
         let own = samples.get_mut(usize::from(all)..usize::from(after));
@@ -85,6 +84,7 @@ impl<'p> Places<'p> {
             }
             return;
         }
+        let ends = before.get(first..end + 1).unwrap_or_default();
         for ends in ends.windows(2) {
             let own = samples.get_mut(usize::from(ends[0])..usize::from(ends[1]));
             visit_columns(own.unwrap_or_default(), &columns, &mut visit);
