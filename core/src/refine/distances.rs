@@ -115,10 +115,9 @@ impl Distances {
                 return None;
             }
             let bin = *BIN_OF.get(((square * per_square) >> 20) as usize)?;
-            other
-                .residual_px()
-                .filter(|_| alike(sample.slope, other.slope))?;
-            Some((number, other, usize::from(bin)))
+            // A sample that has no residual is rarer than one of another side.
+            let counts = alike(sample.slope, other.slope) && other.residual_px().is_some();
+            counts.then_some((number, other, usize::from(bin)))
         })
     }
 }

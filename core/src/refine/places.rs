@@ -93,7 +93,7 @@ impl<'p> Places<'p> {
 }
 
 /// Calls `visit` with those of a row's samples that are in some columns.
-#[inline]
+#[inline(always)]
 fn visit_columns(
     own: &mut [BorderPixel],
     columns: &Range<usize>,
