@@ -294,15 +294,17 @@ fn sort(crossings: &mut [FixedPoint]) {
         else {
             continue;
         };
-        let mut free = own;
+        // As one number: it was written as one, though of 32 bits.
+        let number = |crossing: FixedPoint| u64::from(crossing) as u32;
+        let (moved, mut free) = (*own, own);
         for other in before.iter_mut().rev() {
-            // As one number: it was written as one.
-            if u64::from(*other) <= u64::from(*free) {
+            if number(*other) <= number(moved) {
                 break;
             }
-            core::mem::swap(other, free);
+            *free = *other;
             free = other;
         }
+        *free = moved;
     }
 }
 
