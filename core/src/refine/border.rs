@@ -107,6 +107,12 @@ impl BorderPixel {
         self.residual = residual.into();
     }
 
+    /// Whether there is one, without a call: it is asked of pairs of samples.
+    #[inline(always)]
+    pub(super) fn has_residual(&self) -> bool {
+        !matches!(self.residual.0 ^ NONE, NONE | UNKNOWN | MISSING)
+    }
+
     /// The residual where there is one, pixels.
     pub(super) fn residual_px(&self) -> Option<f32> {
         match self.residual() {

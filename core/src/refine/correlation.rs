@@ -108,7 +108,7 @@ impl Correlation {
         for (few, samples) in border.chunks(BLOCK).enumerate() {
             let (mut some, mut lengths) = ([0.0f32; BINS + 1], [0.0f32; BINS + 1]);
             for (place, sample) in samples.iter().enumerate() {
-                if sample.residual_px().is_none() {
+                if !sample.has_residual() {
                     continue;
                 }
                 let index = few * BLOCK + place;

@@ -45,7 +45,7 @@ pub(super) struct Distances {
 impl Distances {
     /// For the samples of an outline whose residuals are known.
     pub(super) fn of(border: &[BorderPixel]) -> Self {
-        let known = border.iter().filter(|one| one.residual_px().is_some());
+        let known = border.iter().filter(|one| one.has_residual());
         let (count, length) = known.fold((0.0f32, 0.0), |(count, length), one| {
             (count + 1.0, length + one.weight)
         });
@@ -115,8 +115,7 @@ impl Distances {
                 return None;
             }
             let bin = *BIN_OF.get(((square * per_square) >> 20) as usize)?;
-            // A sample that has no residual is rarer than one of another side.
-            let counts = alike(sample.slope, other.slope) && other.residual_px().is_some();
+            let counts = other.has_residual() && alike(sample.slope, other.slope);
             counts.then_some((number, other, usize::from(bin)))
         })
     }

@@ -120,7 +120,7 @@ impl EdgeBias {
         for (few, block) in border.chunks(BLOCK).enumerate() {
             let mut sums = Block::default();
             for (place, sample) in block.iter().enumerate() {
-                if sample.residual_px().is_none() {
+                if !sample.has_residual() {
                     continue;
                 }
                 let [curvature, blur, attenuation] = moves(few * BLOCK + place, sample);

@@ -74,7 +74,7 @@ fn at_centre(silhouette: &Silhouette<'_>, sample: &BorderPixel) -> Option<bool> 
     let unknown = |unknown: &Mask<'_>| unknown.square(column, row) != 0;
     let beyond = column + 1 >= mask.width() || row + 1 >= mask.height();
     let known = !beyond && !silhouette.unknown().is_some_and(unknown);
-    known.then(|| mask.get(column, row))
+    known.then(|| mask.square_within(column, row) & 1 != 0)
 }
 
 /// The way along a normal to one side.

@@ -112,15 +112,11 @@ impl<'i> Images<'i> {
     }
 
     pub(crate) fn of(&mut self, vertex: u32) -> Projected {
-        // Indices were checked when the mesh was made.
         let vertex = vertex as usize;
-        let Some(place) = self.vertices.get(vertex) else {
-            return FixedPoint::NONE;
-        };
         if self.slots.len() < self.vertices.len() {
             let at = Shared::of(vertex, self.slots.len());
             return at.image(self.slots, self.owners).unwrap_or_else(|| {
-                let image = self.made(place);
+                let image = self.made(vertex);
                 at.keep(image, self.slots, self.owners);
                 image
             });
@@ -128,7 +124,7 @@ impl<'i> Images<'i> {
         match self.slots.get(vertex) {
             Some(&image) if image != FixedPoint::NONE => image,
             _ => {
-                let image = self.made(place);
+                let image = self.made(vertex);
                 if let Some(slot) = self.slots.get_mut(vertex) {
                     *slot = image;
                 }
@@ -137,7 +133,11 @@ impl<'i> Images<'i> {
         }
     }
 
-    fn made(&mut self, place: &[f32; 3]) -> Projected {
+    fn made(&mut self, vertex: usize) -> Projected {
+        // Indices were checked when the mesh was made.
+        let Some(place) = self.vertices.get(vertex) else {
+            return FixedPoint::NONE;
+        };
         let whole = match WORTH_IT {
             true => self
                 .whole
