@@ -207,6 +207,7 @@ pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
 }
 
 /// Those of them that are seen before any side is chosen: every other of those all along a long film, and all where the trail rocks.
+#[cfg(feature = "alloc")]
 pub(super) fn first_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
     let is_first = |&(_, number): &(usize, Option<usize>)| number.is_none_or(|k| k % 2 == 0);
     numbered(cells).filter(is_first).map(|(frame, _)| frame)
