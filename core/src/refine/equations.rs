@@ -160,14 +160,6 @@ impl Equations {
         (0..UNKNOWNS).map(row).sum()
     }
 
-    /// The part of the squares that a step explains, to first order.
-    pub(super) fn explained(&self, step: &Step) -> f64 {
-        let [a, b, c, x, y, z] = step.values();
-        let change = [a, b, c, x, y, z, 0.0];
-        let less = 2.0 * dot(&self.right, &change) - self.along(&change);
-        less / self.squares.max(f64::MIN_POSITIVE)
-    }
-
     /// Size of a step in standard deviations of the pose, as far as these residuals tell them.
     pub(super) fn deviations(&self, step: &Step) -> f64 {
         let [a, b, c, x, y, z] = step.values();

@@ -63,9 +63,6 @@ const COARSEST: f64 = 20.0;
 const BEFORE_CORRECTION: [usize; STAGES] = [5, 0, 3, 0];
 /// A stage that is not the last ends where a step lowers the loss by less than this part: the next goes on from there.
 const WORTH_GOING_ON: f64 = 0.02;
-/// A stage before correction by the film ends where a step would explain less than this part of the squares that remain: what correction
-/// goes on from need not be the stage's own minimum.
-const WORTH_CORRECTING_FROM: f64 = 0.2;
 /// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
 const WITHOUT_GRAIN: f64 = 0.02;
 
@@ -220,7 +217,8 @@ impl<'a> Problem<'a> {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if self.is_settled(&step, &seen.equations, pass) {
+            let coarser = self.effort.coarser();
+            if step.size() < SETTLED * coarser * self.grain() {
                 break;
             }
             let mut next = *state;
@@ -257,13 +255,6 @@ impl<'a> Problem<'a> {
         }
         seen.equations.report(state);
         Ok(())
-    }
-
-    /// Whether a step is not worth a look at where it leads.
-    fn is_settled(&self, step: &Step, equations: &Equations, pass: &Pass) -> bool {
-        let settled = SETTLED * self.effort.coarser() * self.grain();
-        let hardly_explains = || equations.explained(step) < WORTH_CORRECTING_FROM;
-        step.size() < settled || (self.is_corrected(pass) && hardly_explains())
     }
 
     /// Damping of the step that is tried after one that failed.
