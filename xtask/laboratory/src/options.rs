@@ -114,7 +114,7 @@ pub fn sides() -> impl TypedValueParser<Value = Side> {
 
 /// Seeds from one to another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seeds(pub RangeInclusive<u64>);
+pub struct Seeds(RangeInclusive<u64>);
 
 impl Seeds {
     /// Each with its folder: `out` itself where there is but one, else a folder there.

@@ -71,7 +71,7 @@ pub struct Args {
 pub fn run(args: Args) -> Result<()> {
     let mut rows = Vec::new();
     if args.track {
-        println!("{}", HEADING);
+        println!("{HEADING}");
     }
     for (plan, out) in plans(&args)? {
         disguise(&args.study, &plan, &out)?;

@@ -15,10 +15,10 @@ use crate::options::study_files;
 #[derive(clap::Args)]
 pub(super) struct ActivityArgs {
     /// Write a film of the built-in implants: knee-bend, stair or gait
-    #[arg(long, requires = "out", conflicts_with = "films")]
+    #[arg(long, requires = "out", conflicts_with = "films", group = "drawn")]
     pub(super) activity: Option<Activity>,
     /// With --activity and --knees: folder to write to; made if absent
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", requires = "drawn")]
     pub(super) out: Option<PathBuf>,
     /// With --activity and --knees: number of frames
     #[arg(long, default_value_t = 120)]

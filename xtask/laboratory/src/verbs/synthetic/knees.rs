@@ -18,11 +18,40 @@ use crate::files::write_json;
 use crate::options::Seeds;
 use crate::verbs::measured_film::{HEADING, Words, follow};
 
+/// Options of which the seed is in place.
+const DRAWN_BY_SEED: [&str; 18] = [
+    "seed",
+    "side",
+    "shutter",
+    "second_leg",
+    "leaves_field",
+    "stretch",
+    "display",
+    "blur",
+    "scatter",
+    "glare",
+    "unsharp",
+    "exposure",
+    "opacity",
+    "hardening",
+    "cement",
+    "screws",
+    "ruler",
+    "flat_panel",
+];
+
 /// Which films are drawn.
 #[derive(clap::Args)]
 pub(super) struct KneeArgs {
     /// With --implants: films of which the seeds from A to B draw all: knee, activity, design, physics
-    #[arg(long, value_name = "A..B", requires_all = ["implants", "out"], conflicts_with_all = ["films", "activity"])]
+    #[arg(
+        long,
+        value_name = "A..B",
+        group = "drawn",
+        requires_all = ["implants", "out"],
+        conflicts_with = "films",
+        conflicts_with_all = DRAWN_BY_SEED
+    )]
     pub(super) knees: Option<Seeds>,
     /// With --knees: follow each film from nothing, and compare it with its truth
     #[arg(long, requires = "knees")]
@@ -187,6 +216,32 @@ impl fmt::Display for Knee {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_seed_draws_is_not_stated_as_well() {
+        #[derive(clap::Parser)]
+        struct Verb {
+            #[command(flatten)]
+            args: crate::verbs::synthetic::Args,
+        }
+        let parsed = |more: &str| {
+            let words = format!("synthetic --knees 1..2 --implants study.toml --out x {more}");
+            <Verb as clap::Parser>::try_parse_from(words.split_whitespace()).map(|verb| verb.args)
+        };
+        assert!(parsed("--frames 12 --track").is_ok());
+        for more in [
+            "--seed 3",
+            "--side right",
+            "--activity gait",
+            "--blur 1",
+            "--cement",
+            "--films",
+        ] {
+            assert!(parsed(more).is_err(), "{more}");
+        }
+        let alone = "synthetic --model a.stl --calibration b.txt --out x";
+        assert!(<Verb as clap::Parser>::try_parse_from(alone.split_whitespace()).is_err());
+    }
 
     #[test]
     fn a_seed_draws_the_same_again_and_each_another_film() {
