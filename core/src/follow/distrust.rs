@@ -20,7 +20,7 @@ pub enum Distrust {
     Beside,
     /// The edges are fainter than elsewhere in the film: part of the usual strength.
     Faint(f64),
-    /// The edges lie farther off than elsewhere: pixels, and the usual.
+    /// The edges lie farther off than elsewhere: pixels, and in the film's better frames.
     Apart(f64, f64),
     /// Only this part of the outline is met by edges.
     Unmet(f64),
@@ -89,7 +89,7 @@ impl fmt::Display for Distrust {
             }
             Self::Apart(px, usual_px) => write!(
                 f,
-                "the edges lie {px:.2} px off the outline, where {usual_px:.2} px is usual in this film"
+                "the edges lie {px:.2} px off the outline, {usual_px:.2} px in the better frames of this film"
             ),
             Self::Unmet(part) => {
                 let percent = 100.0 * part;

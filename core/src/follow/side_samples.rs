@@ -29,7 +29,7 @@ const TOLD: f64 = 3.0;
 /// where their sides are so many times farther apart than where both are one,
 #[cfg(feature = "alloc")]
 const APART: f64 = 4.0;
-/// and where no frame between them leaves more than so many times what they do.
+/// and where no frame between them leaves more than so many times what they do. All three are judgements: where one does not hold, all frames are seen.
 #[cfg(feature = "alloc")]
 const ALIKE: f64 = 1.15;
 /// Where there is no other side, it fits so many times worse.

@@ -102,6 +102,7 @@ pub struct Trust {
 /// What is usual in a film.
 #[derive(Default)]
 struct Usual {
+    /// The lower quartile.
     misfit_px: f64,
     strength: f64,
     jump: [f64; 2],

@@ -39,7 +39,7 @@ const LEAST_CURVATURE: f64 = 0.2;
 /// No combination of the six parameters is held less than this part of what it were with the mean of `psi'` everywhere:
 /// four standard deviations instead of one.
 const LEAST_HOLD: f64 = 0.25;
-/// None errs less than this part of what it would if the outline erred in independent stretches: a quarter of the standard deviation.
+/// None errs less than this part of what it would if the outline erred in independent stretches: a quarter of the standard deviation. A judgement, not a fit.
 const LEAST_SPREAD: f64 = 1.0 / 16.0;
 /// Mixtures with what were so all along the outline, one after the other, until it is so.
 const MIXTURES: u32 = 8;
@@ -261,7 +261,7 @@ impl Sums {
 
     /// `M`, with as much of what it were if the outline erred in independent stretches as it needs: a covariance that is cut where it first fails
     /// to be positive is none of a wave that is as long, and would give it a variance below zero.
-    fn filling(&self) -> Matrix6 {
+    fn meat(&self) -> Matrix6 {
         let noise = self.noise / self.length.max(1.0);
         self.mixed(noise, &self.spread, LEAST_SPREAD)
     }
@@ -288,10 +288,10 @@ impl Sums {
         // 6 F(6, n) / chi^2(6) at 95 %, within 1 % for n of 10 and more (Abramowitz and Stegun,
         // table 26.9).
         let few = 1.0 + 4.4 / freedom + 9.0 / (freedom * freedom);
-        let filling = self.filling();
+        let meat = self.meat();
         let spread: Matrix6 = core::array::from_fn(|row| {
             core::array::from_fn(|column| {
-                filling[row][column] * few + self.information[row][column] * GRAIN
+                meat[row][column] * few + self.information[row][column] * GRAIN
             })
         });
         PoseCovariance::sandwich(&bread, &spread)
