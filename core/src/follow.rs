@@ -69,7 +69,7 @@ mod way;
 
 pub use cell::{Anchor, Cell};
 #[cfg(feature = "alloc")]
-pub use conclude::{KnownBeside, conclude, trusted_depths};
+pub use conclude::{KnownBeside, conclude, trusted_middles};
 pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
 #[cfg(feature = "alloc")]

@@ -5,6 +5,7 @@ mod seen;
 
 use fluoropose::film::FilmModel;
 use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur};
+use fluoropose::math::Vector3;
 use fluoropose::pose::{EulerPose, Pose};
 use seen::Seen;
 use wasm_bindgen::prelude::*;
@@ -182,7 +183,7 @@ impl FilmFollower {
     }
 
     /// Once all is done, begins to look for the component where it is lost, or lies on other edges, beside the other one in frames in which that is good
-    /// (`other`: six numbers a frame, not finite elsewhere; its `depths`). The femur is that of `chooseSides`, as far as it is known by now.
+    /// (`other`: six numbers a frame, not finite elsewhere; its `middles`). The femur is that of `chooseSides`, as far as it is known by now.
     ///
     /// # Errors
     /// As of `chooseSides`.
@@ -190,21 +191,21 @@ impl FilmFollower {
     pub fn look_beside(
         &mut self,
         other: &[f64],
-        other_depths: &[f64],
+        other_middles: &[f64],
         femurs: &[f64],
         femoral_axes: &[f64],
         own_axes: &[f64],
     ) -> Result<(), JsError> {
         let femur = known_femur(femurs, femoral_axes, own_axes)?;
         let poses = other.as_chunks().0.iter().map(known_pose);
-        let other = (poses.collect(), &*known_depths(other_depths));
+        let other = (poses.collect(), &*known_middles(other_middles));
         self.following.look_beside(other, femur);
         Ok(())
     }
 
-    /// The six numbers of each frame in which the component is good, with the other component's `depths`, or none of them; not finite elsewhere.
-    pub fn good(&self, other_depths: &[f64]) -> Vec<f64> {
-        let good = self.following.good(&known_depths(other_depths));
+    /// The six numbers of each frame in which the component is good, with the other component's `middles`, or none of them; not finite elsewhere.
+    pub fn good(&self, other_middles: &[f64]) -> Vec<f64> {
+        let good = self.following.good(&known_middles(other_middles));
         let numbers = |found: &Option<FramePose>| match found {
             Some(found) => to_numbers(&EulerPose::from(found.pose)),
             None => [f64::NAN; NUMBERS],
@@ -214,8 +215,8 @@ impl FilmFollower {
 
     /// The frames that are asked whether the constants of the film stand: seven numbers each, the frame's and the six of its pose.
     #[wasm_bindgen(js_name = toAsk)]
-    pub fn to_ask(&self, other_depths: &[f64]) -> Vec<f64> {
-        let asked = self.following.to_ask(&known_depths(other_depths));
+    pub fn to_ask(&self, other_middles: &[f64]) -> Vec<f64> {
+        let asked = self.following.to_ask(&known_middles(other_middles));
         let numbers = |(frame, pose): (usize, Pose)| {
             let pose = to_numbers(&EulerPose::from(pose));
             [frame as f64].into_iter().chain(pose)
@@ -234,17 +235,18 @@ impl FilmFollower {
         self.following.compare_sides(frames.into_iter());
     }
 
-    /// How far the component is from the camera in each frame where it is to be trusted, mm; not a number elsewhere.
-    pub fn depths(&self) -> Vec<f64> {
-        let depths = self.following.depths();
-        depths.iter().map(|mm| mm.unwrap_or(f64::NAN)).collect()
+    /// Where the component is in each frame in which it is to be trusted, three numbers each, mm in the camera's frame; not numbers elsewhere.
+    pub fn middles(&self) -> Vec<f64> {
+        let middles = self.following.middles();
+        let numbers = |middle: &Option<Vector3>| middle.unwrap_or([f64::NAN; 3]);
+        middles.iter().flat_map(numbers).collect()
     }
 
-    /// The answer, with the other component's `depths`, or none of them.
-    pub fn conclude(&self, other_depths: &[f64]) -> FollowedFilm {
-        let depths = known_depths(other_depths);
+    /// The answer, with the other component's `middles`, or none of them.
+    pub fn conclude(&self, other_middles: &[f64]) -> FollowedFilm {
+        let middles = known_middles(other_middles);
         let cells = self.following.cells();
-        let frames = self.following.conclude(&depths);
+        let frames = self.following.conclude(&middles);
         let middle = self.seen.middle();
         let uncertainties = cells.iter().map(|cell| {
             let found = cell.found()?;
@@ -269,9 +271,12 @@ impl FilmFollower {
     }
 }
 
-fn known_depths(depths: &[f64]) -> Vec<Option<f64>> {
-    let known = depths.iter().map(|&mm| mm.is_finite().then_some(mm));
-    known.collect()
+fn known_middles(numbers: &[f64]) -> Vec<Option<Vector3>> {
+    let is_known = |middle: &Vector3| middle.iter().all(|mm| mm.is_finite());
+    let middles = numbers.as_chunks().0.iter();
+    middles
+        .map(|&middle| Some(middle).filter(is_known))
+        .collect()
 }
 
 fn known_pose(numbers: &[f64; NUMBERS]) -> Option<Pose> {

@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::conclusion::{Conclusion, fill_gaps};
+use super::conclusion::{Conclusion, doubt_few, fill_gaps};
 use super::distrust::Distrust;
 use super::known_femur::KnownFemur;
 use super::side_margin::SideMargin;
@@ -16,9 +16,9 @@ use crate::mesh::anatomy::KneeComponent;
 /// What is known besides a component's own frames when its film is judged.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct KnownBeside<'b> {
-    /// How far the other component is from the camera, at the middle of its box, where that is known ([`trusted_depths`]), mm; may be shorter
-    /// than the film.
-    pub other_depths_mm: &'b [Option<f64>],
+    /// Where the other component is, in the camera's frame at the middle of its box, where that is known ([`trusted_middles`]), mm; may be
+    /// shorter than the film.
+    pub other_middles: &'b [Option<Vector3>],
     /// Of a tibia its femur.
     pub femur: Option<&'b KnownFemur>,
     /// What is told of each frame of a film whose components lie beside each other ([`Middles::judge_poses`](crate::joint::beside::Middles::judge_poses));
@@ -39,18 +39,7 @@ pub fn conclude(
     beside: &KnownBeside<'_>,
     middle: &Vector3,
 ) -> Vec<Conclusion> {
-    let evidence = cells.iter().enumerate().map(|(frame, cell)| {
-        let margin = side_margins.get(frame).copied().flatten();
-        let depth = beside.other_depths_mm.get(frame).copied().flatten();
-        FrameEvidence::of(cell, margin, depth)
-    });
-    let evidence: Vec<FrameEvidence> = evidence.collect();
-    let mut trusts = vec![Trust::default(); cells.len()];
-    let mut sorted = vec![0.0; cells.len()];
-    let limits = TrustLimits::USUAL;
-    judge_film(&evidence, &limits, middle, &mut sorted, &mut trusts);
-    let one = |(cell, trust)| Conclusion::of(cell, trust);
-    let mut film: Vec<Conclusion> = cells.iter().zip(&trusts).map(one).collect();
+    let mut film = judged(cells, side_margins, beside, &TrustLimits::USUAL, middle);
     fill_gaps(&mut film, beside.longest_gap, middle);
     if let Some(shape) = beside.other_shape {
         // Right or not, they are not those of the component whose name they bear.
@@ -67,21 +56,54 @@ pub fn conclude(
             None => {}
         }
     }
+    doubt_few(&mut film);
     film
 }
 
-/// How far a component is from the camera in each frame, at the `middle` of its box, mm; only where its pose is to be trusted by
-/// itself: else it says nothing of the other component.
+/// Where a component is in each frame, in the camera's frame at the `middle` of its box, mm; only where its pose is to be trusted by
+/// itself: else it says nothing of the other component. A jump along the image plane does not count: whether the other one makes it too is
+/// what is asked next.
 #[must_use]
-pub fn trusted_depths(
+pub fn trusted_middles(
     cells: &[Cell],
     side_margins: &[Option<SideMargin>],
     middle: &Vector3,
-) -> Vec<Option<f64>> {
-    let alone = conclude(cells, side_margins, &KnownBeside::default(), middle);
-    let depth = |one: &Conclusion| {
-        let pose = one.pose.filter(|_| one.is_trusted())?;
-        Some(-pose.transform(middle)[2])
+) -> Vec<Option<Vector3>> {
+    let limits = TrustLimits {
+        jump_mm: f64::INFINITY,
+        ..TrustLimits::USUAL
     };
-    alone.iter().map(depth).collect()
+    let alone = judged(
+        cells,
+        side_margins,
+        &KnownBeside::default(),
+        &limits,
+        middle,
+    );
+    let place = |one: &Conclusion| {
+        let pose = one.pose.filter(|_| one.is_trusted())?;
+        Some(pose.transform(middle))
+    };
+    alone.iter().map(place).collect()
+}
+
+/// What the frames of a component come to by what they say of each other.
+fn judged(
+    cells: &[Cell],
+    side_margins: &[Option<SideMargin>],
+    beside: &KnownBeside<'_>,
+    limits: &TrustLimits,
+    middle: &Vector3,
+) -> Vec<Conclusion> {
+    let evidence = cells.iter().enumerate().map(|(frame, cell)| {
+        let margin = side_margins.get(frame).copied().flatten();
+        let other = beside.other_middles.get(frame).copied().flatten();
+        FrameEvidence::of(cell, margin, other)
+    });
+    let evidence: Vec<FrameEvidence> = evidence.collect();
+    let mut trusts = vec![Trust::default(); cells.len()];
+    let mut sorted = vec![0.0; cells.len()];
+    judge_film(&evidence, limits, middle, &mut sorted, &mut trusts);
+    let one = |(cell, trust)| Conclusion::of(cell, trust);
+    cells.iter().zip(&trusts).map(one).collect()
 }

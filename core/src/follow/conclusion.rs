@@ -56,6 +56,9 @@ impl fmt::Display for Why {
     }
 }
 
+/// Where no more than one pose of so many is to be trusted, none is.
+const FEW: usize = 4;
+
 /// A frame at the end. Displayed, it is the reason for its state, a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conclusion {
@@ -117,6 +120,12 @@ impl Conclusion {
         let doubted = matches!(self.why, Why::Distrusted(_));
         matches!(self.state, State::Fixed | State::Followed) && !doubted
     }
+
+    /// The same, whatever the film's other poses of the component are.
+    #[must_use]
+    pub fn stands_by_itself(&self) -> bool {
+        self.is_trusted() || matches!(self.why, Why::Distrusted(Distrust::Few { .. }))
+    }
 }
 
 impl fmt::Display for Conclusion {
@@ -129,14 +138,14 @@ impl fmt::Display for Conclusion {
 }
 
 impl FrameEvidence {
-    /// What a frame says when its film is judged. `side_margin` and `other_depth_mm` are those of the fields.
+    /// What a frame says when its film is judged. `side_margin` and `other_middle` are those of the fields.
     #[must_use]
-    pub fn of(cell: &Cell, side_margin: Option<SideMargin>, other_depth_mm: Option<f64>) -> Self {
+    pub fn of(cell: &Cell, side_margin: Option<SideMargin>, other_middle: Option<Vector3>) -> Self {
         Self {
             found: cell.found().copied(),
             side_margin,
             other_way: cell.other_way,
-            other_depth_mm,
+            other_middle,
             fixed: cell.fixed,
         }
     }
@@ -165,10 +174,53 @@ pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
     }
 }
 
+/// Makes the few poses of a film that are to be trusted doubtful where nearly all that was found is: they share model, calibration, constants of
+/// the film, and often the way to them. What a person gave counts on neither side.
+pub(super) fn doubt_few(film: &mut [Conclusion]) {
+    let found = |one: &&Conclusion| matches!(one.state, State::Followed | State::Doubtful);
+    let poses = film.iter().filter(found).count();
+    let good = film
+        .iter()
+        .filter(found)
+        .filter(|one| one.is_trusted())
+        .count();
+    if FEW * good < poses {
+        film.iter_mut()
+            .for_each(|one| one.distrust(Distrust::Few { good, poses }));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::anatomy::KneeComponent;
+
+    #[test]
+    fn few_good_poses_among_many_doubtful_ones_are_doubtful_and_what_a_person_fixed_is_not() {
+        let judged = |good: usize, doubtful: usize| {
+            let one = |state, why| Conclusion {
+                state,
+                pose: None,
+                why,
+                badness: 0.5,
+            };
+            let doubt = Why::Distrusted(Distrust::Unmet(0.5));
+            let mut film = std::vec![one(State::Followed, Why::Agrees); good];
+            film.extend(std::vec![one(State::Doubtful, doubt); doubtful]);
+            film.push(one(State::Fixed, Why::GivenByPerson));
+            film.push(one(State::Untrackable, Why::Hidden));
+            doubt_few(&mut film);
+            assert!(film.iter().take(good).all(Conclusion::stands_by_itself));
+            assert_eq!(film[good + doubtful].why, Why::GivenByPerson);
+            film.iter().filter(|one| one.is_trusted()).count() - 1
+        };
+        assert_eq!(judged(2, 10), 0);
+        assert_eq!(judged(3, 9), 3);
+        assert_eq!(judged(1, 3), 1);
+        assert_eq!(judged(1, 4), 0);
+        assert_eq!(judged(5, 0), 5);
+        assert_eq!(judged(0, 0), 0);
+    }
 
     #[test]
     fn what_a_person_gave_and_what_is_not_there_cannot_become_doubtful() {

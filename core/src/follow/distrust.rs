@@ -18,6 +18,13 @@ pub enum Distrust {
     Jump(f64, f64),
     /// The frames beside it, one at the end of a film, may be another pose's themselves, so that it says little that they agree.
     Beside,
+    /// Of so many poses of the film only so few stand by themselves: what is wrong with the others may be in all.
+    Few {
+        /// Those that do.
+        good: usize,
+        /// All.
+        poses: usize,
+    },
     /// The edges are fainter than elsewhere in the film: part of the usual strength.
     Faint(f64),
     /// The edges lie farther off than elsewhere: pixels, and in the film's better frames.
@@ -51,6 +58,7 @@ impl Distrust {
             Self::Ways(_) => "two ways",
             Self::Jump(..) => "jump",
             Self::Beside => "beside doubt",
+            Self::Few { .. } => "few",
             Self::Faint(_) => "faint",
             Self::Apart(..) | Self::Unmet(_) => "residual",
             Self::Cut(_) => "cut off",
@@ -79,6 +87,10 @@ impl fmt::Display for Distrust {
             ),
             Self::Beside => f.write_str(
                 "the frames beside it are doubtful themselves, so that it says little that they agree",
+            ),
+            Self::Few { good, poses } => write!(
+                f,
+                "only {good} of the film's {poses} poses of this component stand by themselves, and what is wrong with the others may be in all of them"
             ),
             Self::Faint(part) => {
                 let percent = 100.0 * part;

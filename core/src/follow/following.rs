@@ -13,7 +13,7 @@ use beside::Beside;
 use task::{Span, Task, Walk};
 
 use super::cell::{Anchor, Cell};
-use super::conclude::{KnownBeside, conclude, trusted_depths};
+use super::conclude::{KnownBeside, conclude, trusted_middles};
 use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
 use super::frame_pose::{FramePose, mirrored_pose};
@@ -235,16 +235,16 @@ impl Following {
 
     /// Once all is done, begins to look for the component where it is lost after all, or lies on other edges: beside the `other` one of its joint in
     /// frames in which that is [good](Self::good), and settles it again where it is found there, or better. A caller that
-    /// [searches](Self::search_where_lost) not has nothing to do. `other_depths_mm` are the other one's [`Self::depths`]; `femur` is that of a tibia,
+    /// [searches](Self::search_where_lost) not has nothing to do. `other_middles` are the other one's [`Self::middles`]; `femur` is that of a tibia,
     /// as far as it is known by now.
     pub fn look_beside(
         &mut self,
-        (other, other_depths_mm): (Vec<Option<Pose>>, &[Option<f64>]),
+        (other, other_middles): (Vec<Option<Pose>>, &[Option<Vector3>]),
         femur: Option<KnownFemur>,
     ) {
         if self.searches && self.phase == Phase::Over && self.tasks.is_empty() {
             self.femur = femur;
-            self.beside = Beside::new(&self.cells, self.good(other_depths_mm), other);
+            self.beside = Beside::new(&self.cells, self.good(other_middles), other);
             self.runs = RunsToSearch::default();
             self.phase = Phase::Beside;
         }
@@ -283,35 +283,35 @@ impl Following {
         &self.cells
     }
 
-    /// How far the component is from the camera where it is to be trusted; see [`trusted_depths`].
+    /// Where the component is in each frame in which it is to be trusted, mm; see [`trusted_middles`].
     #[must_use]
-    pub fn depths(&self) -> Vec<Option<f64>> {
+    pub fn middles(&self) -> Vec<Option<Vector3>> {
         let margins = self.settling.margins(&self.cells);
-        trusted_depths(&self.cells, &margins, &self.middle)
+        trusted_middles(&self.cells, &margins, &self.middle)
     }
 
-    /// The answer, with the other component's [`Self::depths`], where there is one.
+    /// The answer, with the other component's [`Self::middles`], where there is one.
     #[must_use]
-    pub fn conclude(&self, other_depths_mm: &[Option<f64>]) -> Vec<Conclusion> {
+    pub fn conclude(&self, other_middles: &[Option<Vector3>]) -> Vec<Conclusion> {
         let margins = self.settling.margins(&self.cells);
         let beside = KnownBeside {
-            other_depths_mm,
+            other_middles,
             femur: self.femur.as_ref(),
             ..KnownBeside::default()
         };
         conclude(&self.cells, &margins, &beside, &self.middle)
     }
 
-    /// The pose of each frame in which the component is good, with the other component's [`Self::depths`], where there is one.
+    /// The pose of each frame in which the component is good, with the other component's [`Self::middles`], where there is one.
     #[must_use]
-    pub fn good(&self, other_depths_mm: &[Option<f64>]) -> Vec<Option<FramePose>> {
-        good_poses(&self.cells, &self.conclude(other_depths_mm))
+    pub fn good(&self, other_middles: &[Option<Vector3>]) -> Vec<Option<FramePose>> {
+        good_poses(&self.cells, &self.conclude(other_middles))
     }
 
     /// The frames that are asked whether the constants of the film stand, with their poses; see [`frames_to_ask`].
     #[must_use]
-    pub fn to_ask(&self, other_depths_mm: &[Option<f64>]) -> Vec<(usize, Pose)> {
-        frames_to_ask(&self.good(other_depths_mm))
+    pub fn to_ask(&self, other_middles: &[Option<Vector3>]) -> Vec<(usize, Pose)> {
+        frames_to_ask(&self.good(other_middles))
     }
 
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.

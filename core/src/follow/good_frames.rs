@@ -15,8 +15,9 @@ const MOST_ASKED: usize = 12;
 /// The pose of each frame in which a component is good, by what is concluded of its film.
 #[must_use]
 pub fn good_poses(cells: &[Cell], film: &[Conclusion]) -> Vec<Option<FramePose>> {
-    let good =
-        |(cell, one): (&Cell, &Conclusion)| cell.found().copied().filter(|_| one.is_trusted());
+    let good = |(cell, one): (&Cell, &Conclusion)| {
+        cell.found().copied().filter(|_| one.stands_by_itself())
+    };
     cells.iter().zip(film).map(good).collect()
 }
 

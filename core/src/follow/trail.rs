@@ -185,9 +185,13 @@ impl Trail {
 
 /// Turn (degrees) and way of the model's middle in the image plane (mm) from one pose to another.
 pub(super) fn apart(a: &Pose, b: &Pose, middle: &Vector3) -> [f64; 2] {
-    let (from, to) = (a.transform(middle), b.transform(middle));
-    // Seen at one distance, so that an error of depth is none in the plane.
-    let away = if to[2] == 0.0 { 1.0 } else { from[2] / to[2] };
-    let way = subtract(&[to[0] * away, to[1] * away, 0.0], &[from[0], from[1], 0.0]);
+    let way = in_plane(&a.transform(middle), &b.transform(middle));
     [geodesic_deg(&a.rotation, &b.rotation), norm(&way)]
+}
+
+/// The way from one point of the camera's frame to another along the image plane, mm: seen at one distance, so that an error of depth is
+/// none of it.
+pub(super) fn in_plane(from: &Vector3, to: &Vector3) -> Vector3 {
+    let away = if to[2] == 0.0 { 1.0 } else { from[2] / to[2] };
+    subtract(&[to[0] * away, to[1] * away, 0.0], &[from[0], from[1], 0.0])
 }

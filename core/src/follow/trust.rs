@@ -4,8 +4,8 @@ use super::distrust::Distrust;
 use super::frame_pose::FramePose;
 use super::motion::between;
 use super::side_margin::SideMargin;
-use super::trail::apart;
-use crate::math::Vector3;
+use super::trail::{apart, in_plane};
+use crate::math::{Vector3, add, norm, scale, subtract};
 use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
 
@@ -18,8 +18,8 @@ pub struct FrameEvidence {
     pub side_margin: Option<SideMargin>,
     /// What another way to this frame, from the other end, came to.
     pub other_way: Option<Pose>,
-    /// The other component's distance from the camera, at the middle of its box, mm.
-    pub other_depth_mm: Option<f64>,
+    /// Where the other component is, in the camera's frame at the middle of its box, mm.
+    pub other_middle: Option<Vector3>,
     /// Whether a person gave the pose.
     pub fixed: bool,
 }
@@ -45,7 +45,7 @@ pub struct TrustLimits {
     pub strength: f64,
     /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
     pub jump_deg: f64,
-    /// The same along the image plane, mm.
+    /// The same along the image plane, mm, of what the other component does not do too.
     pub jump_mm: f64,
     /// Both in usual ones of the film.
     pub jump_times: f64,
@@ -162,19 +162,35 @@ fn strength(one: &FrameEvidence) -> Option<f64> {
 
 /// How much farther from the camera than the other component, mm.
 fn deeper(one: &FrameEvidence, middle: &Vector3) -> Option<f64> {
-    Some(-one.found?.pose.transform(middle)[2] - one.other_depth_mm?)
+    Some(one.other_middle?[2] - one.found?.pose.transform(middle)[2])
 }
 
-/// How far a pose lies off the way between the found ones on both sides, at most two frames away.
+/// How far a pose lies off the way between those of the frames on both sides: degrees, and mm along the image plane.
 fn jump(film: &[FrameEvidence], at: usize, middle: &Vector3) -> Option<[f64; 2]> {
-    let own = film.get(at)?.found?.pose;
-    let found = |at: usize| Some(film.get(at)?.found?.pose);
-    let (before, after) = (at.checked_sub(1).and_then(found), found(at + 1));
-    let led = match (before, after) {
-        (Some(before), Some(after)) => between(&before, &after, 0.5, middle),
-        _ => return None,
-    };
+    let [before, own, after] = around(film, at, |one| Some(one.found?.pose))?;
+    let led = between(&before, &after, 0.5, middle);
     Some(apart(&led, &own, middle))
+}
+
+/// The mm of [`jump`] in which the other component does not jump with it: a limb that sets off takes both along.
+fn jump_by_itself(film: &[FrameEvidence], at: usize, middle: &Vector3) -> Option<f64> {
+    let off =
+        |[before, own, after]: [Vector3; 3]| in_plane(&scale(&add(&before, &after), 0.5), &own);
+    let own = off(around(film, at, |one| {
+        Some(one.found?.pose.transform(middle))
+    })?);
+    let other = off(around(film, at, |one| one.other_middle)?);
+    Some(norm(&subtract(&own, &other)))
+}
+
+/// What a frame and those on both sides say.
+fn around<T>(
+    film: &[FrameEvidence],
+    at: usize,
+    say: impl Fn(&FrameEvidence) -> Option<T>,
+) -> Option<[T; 3]> {
+    let said = |at: usize| film.get(at).and_then(&say);
+    Some([said(at.checked_sub(1)?)?, said(at)?, said(at + 1)?])
 }
 
 fn judge(
@@ -214,9 +230,10 @@ fn judge(
     let jump = jump(film, at, middle);
     if let Some([deg, mm]) = jump {
         let most = |least: f64, usual: f64| least.max(limits.jump_times * usual);
+        let alone_mm = jump_by_itself(film, at, middle).map_or(mm, |alone| mm.min(alone));
         let jumps = [
             deg / most(limits.jump_deg, usual.jump[0]),
-            mm / most(limits.jump_mm, usual.jump[1]),
+            alone_mm / most(limits.jump_mm, usual.jump[1]),
         ];
         worst.weigh(jumps[0].max(jumps[1]), Distrust::Jump(deg, mm));
     }
@@ -302,6 +319,40 @@ fn sort(values: impl Iterator<Item = f64>, room: &mut [f64]) -> &[f64] {
 mod tests {
     use super::*;
     use crate::follow::fake::turned;
+
+    /// Whether the third of five frames is doubtful, 10 mm off the way between those beside it, and the other component so far.
+    fn jumps(other_mm: Option<[f64; 2]>) -> Option<&'static str> {
+        let moved = |k: usize, [right, up]: [f64; 2]| {
+            let off = if k == 2 { 1.0 } else { 0.0 };
+            [k as f64 + off * right, off * up, -1000.0]
+        };
+        let film: [FrameEvidence; 5] = core::array::from_fn(|k| {
+            let mut found = turned(0.0, 0.1);
+            found.pose.translation = moved(k, [10.0, 0.0]);
+            FrameEvidence {
+                found: Some(found),
+                other_middle: other_mm.map(|mm| moved(k, mm)),
+                ..FrameEvidence::default()
+            }
+        });
+        let (mut sorted, mut trusts) = ([0.0; 5], [Trust::default(); 5]);
+        // Of five frames three jump as far as they can beside that one; a film has more.
+        let limits = TrustLimits {
+            jump_times: 0.0,
+            ..TrustLimits::USUAL
+        };
+        judge_film(&film, &limits, &[0.0; 3], &mut sorted, &mut trusts);
+        trusts[2].distrust.map(|why| why.word())
+    }
+
+    #[test]
+    fn what_both_components_do_is_no_jump() {
+        assert_eq!(jumps(None), Some("jump"));
+        assert_eq!(jumps(Some([9.0, 1.0])), None);
+        assert_eq!(jumps(Some([-10.0, 0.0])), Some("jump"));
+        assert_eq!(jumps(Some([0.0, 10.0])), Some("jump"));
+        assert_eq!(jumps(Some([0.0, 0.0])), Some("jump"));
+    }
 
     /// Of an outline that determines nothing there is no covariance, and of one that hardly determines it a variance may come out below 0.
     #[test]

@@ -152,14 +152,14 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     };
     let ends = [0, FRAMES - 1];
     let tibia = follow(&tray, &tibiae, &ends, Some(known.clone()));
-    let depths = femur.depths();
-    assert_followed(&tibia.conclude(&depths), &tibiae, &ends);
+    let middles = femur.middles();
+    assert_followed(&tibia.conclude(&middles), &tibiae, &ends);
     // With a femur of which less was known, and with one that leans so far that it tells the other side.
     let tibia = follow(&tray, &tibiae, &[0], Some(known.clone()));
     for (deg, stands) in [(0.3, true), (-25.0, false)] {
         let mut early = follow(&tray, &tibiae, &[0], Some(leaning(&known, deg)));
         assert_eq!(early.stands_with(Some(known.clone())), stands, "{deg}");
-        let same = early.conclude(&depths) == tibia.conclude(&depths);
+        let same = early.conclude(&middles) == tibia.conclude(&middles);
         assert_eq!(same, stands, "{deg}");
     }
 }

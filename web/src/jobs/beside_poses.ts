@@ -47,11 +47,11 @@ async function besideOf(services: Services, subject: Subject, signal: AbortSigna
 }
 
 /** Reads the film in frames in which a followed component is good, as its worker chooses them; null where these are too few. */
-export async function readAsked(services: Services, subject: Subject, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<Beside | null> {
+export async function readAsked(services: Services, subject: Subject, otherMiddles: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<Beside | null> {
   const { component, worker, span } = subject;
   const { doc } = services.store;
   const { model, ...input } = subjectOf(services, component);
-  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, otherDepths });
+  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, otherMiddles });
   if (first === null) return null;
   const read = await profilesFrom(services, subject, first, signal, () => undefined);
   return { model, anchors: anchorsOf(doc, span.given.slice(0, POSES)), read };

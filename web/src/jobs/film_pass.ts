@@ -25,9 +25,9 @@ export interface Part {
 /** How the work came to its end: what was not reached is as it was, and what another pass was to take the place of is to be followed again. */
 export type Ending = 'done' | 'stopped' | 'superseded';
 
-type Depths = Float64Array<ArrayBuffer>;
+type Middles = Float64Array<ArrayBuffer>;
 
-const NO_DEPTHS = new Float64Array();
+const NO_MIDDLES = new Float64Array();
 /** No end of what a frame is followed from: what bears it is followed again. */
 const SUPERSEDED = ', before the film was known better';
 
@@ -58,30 +58,30 @@ export class FilmPass {
 
   /** What became of every frame, doubtful ones with what they look like from the other side of the mirror. */
   async answers(): Promise<readonly Followed[]> {
-    const film = await this.#concluded((part, depths) => this.#compared(part, depths));
+    const film = await this.#concluded((part, middles) => this.#compared(part, middles));
     const ending = this.#signal.aborted ? 'stopped' : 'done';
     return this.#parts.flatMap((part, at) => this.#answersOf(part, film[at]!, ending));
   }
 
   /** The same for the case that another pass, which is to take the place of this one, is stopped. */
   async answersSoFar(): Promise<readonly Followed[]> {
-    const film = await this.#concluded(({ worker }, otherDepths) => worker.call('conclude', { otherDepths }));
+    const film = await this.#concluded(({ worker }, otherMiddles) => worker.call('conclude', { otherMiddles }));
     return this.#parts.flatMap((part, at) => this.#answersOf(part, film[at]!, 'superseded'));
   }
 
-  /** How far the other component is from the camera, where that is followed. */
-  async otherDepths(component: ComponentName): Promise<Depths> {
-    return (await this.#partOf(otherThan(component))?.worker.call('depths', null)) ?? NO_DEPTHS;
+  /** Where the other component is in each frame, where that is followed: three numbers each. */
+  async otherMiddles(component: ComponentName): Promise<Middles> {
+    return (await this.#partOf(otherThan(component))?.worker.call('middles', null)) ?? NO_MIDDLES;
   }
 
   #partOf(name: ComponentName): Part | undefined {
     return this.#parts.find(({ component }) => component === name);
   }
 
-  async #concluded(answer: (part: Part, otherDepths: Depths) => Promise<readonly FollowedFrame[]>): Promise<readonly (readonly FollowedFrame[])[]> {
-    const depths: Depths[] = [];
-    for (const { component } of this.#parts) depths.push(await this.otherDepths(component));
-    return Promise.all(this.#parts.map((part, at) => answer(part, depths[at]!)));
+  async #concluded(answer: (part: Part, otherMiddles: Middles) => Promise<readonly FollowedFrame[]>): Promise<readonly (readonly FollowedFrame[])[]> {
+    const middles: Middles[] = [];
+    for (const { component } of this.#parts) middles.push(await this.otherMiddles(component));
+    return Promise.all(this.#parts.map((part, at) => answer(part, middles[at]!)));
   }
 
   /**
@@ -107,18 +107,18 @@ export class FilmPass {
       const { component, worker } = part;
       const other = await this.#good(otherThan(component));
       const femurs = component === 'tibia' ? this.#known(await this.#femurs()) : null;
-      const otherDepths = await this.otherDepths(component);
-      await this.#look(part, await worker.call('lookBeside', { other, otherDepths, femurs }), this.#progress.another);
+      const otherMiddles = await this.otherMiddles(component);
+      await this.#look(part, await worker.call('lookBeside', { other, otherMiddles, femurs }), this.#progress.another);
     }
   }
 
   /** The answer, doubtful frames with what they look like from the other side of the mirror. */
-  async #compared(part: Part, otherDepths: Depths): Promise<readonly FollowedFrame[]> {
-    const film = await part.worker.call('conclude', { otherDepths });
+  async #compared(part: Part, otherMiddles: Middles): Promise<readonly FollowedFrame[]> {
+    const film = await part.worker.call('conclude', { otherMiddles });
     const frames = film.flatMap(({ state }, frame) => (state === 'doubtful' ? [frame] : []));
     if (frames.length === 0 || this.#signal.aborted) return film;
     await this.#look(part, await part.worker.call('compare', { frames }), this.#progress.another);
-    return part.worker.call('conclude', { otherDepths });
+    return part.worker.call('conclude', { otherMiddles });
   }
 
   /** From the frames that are set over all others. */
@@ -165,14 +165,14 @@ export class FilmPass {
   /** As far as they are followed; what is not followed is as it is shown. */
   async #femurs(): Promise<readonly (PoseNumbers | null)[]> {
     const shown = this.#shown('femur', () => true);
-    const film = await this.#partOf('femur')?.worker.call('conclude', { otherDepths: NO_DEPTHS });
+    const film = await this.#partOf('femur')?.worker.call('conclude', { otherMiddles: NO_MIDDLES });
     return film?.map(({ pose }, frame) => pose ?? shown[frame] ?? null) ?? shown;
   }
 
   /** The frames in which a component is good, with its poses. */
   async #good(component: ComponentName): Promise<readonly (PoseNumbers | null)[]> {
-    const otherDepths = await this.otherDepths(component);
-    const followed = await this.#partOf(component)?.worker.call('good', { otherDepths });
+    const otherMiddles = await this.otherMiddles(component);
+    const followed = await this.#partOf(component)?.worker.call('good', { otherMiddles });
     return followed ?? this.#shown(component, (result) => verdictOf(result)?.word === 'good');
   }
 

@@ -184,8 +184,8 @@ export class Follower {
   /** What frames say of the film in which all components are good; null where one of them is good in too few. */
   async #asked(parts: readonly Part[], pass: FilmPass, report: Report, signal: AbortSignal): Promise<ReadonlyMap<ComponentName, Beside> | null> {
     report(0, 0, { title: texts.follow.comparing, unit: '' });
-    const depths = await Promise.all(parts.map(({ component }) => pass.otherDepths(component)));
-    const each = parts.map(async (part, at) => [part.component, await readAsked(this.#services, part, depths[at]!, signal)] as const);
+    const middles = await Promise.all(parts.map(({ component }) => pass.otherMiddles(component)));
+    const each = parts.map(async (part, at) => [part.component, await readAsked(this.#services, part, middles[at]!, signal)] as const);
     const asked = new Map<ComponentName, Beside>();
     for (const [component, read] of await Promise.all(each)) if (read) asked.set(component, read);
     return asked.size === parts.length && !signal.aborted ? asked : null;

@@ -83,7 +83,7 @@ function worker(missing: readonly number[]) {
       compared = frames;
       return null;
     },
-    depths: () => new Float64Array(FRAMES),
+    middles: () => new Float64Array(3 * FRAMES),
     conclude: () => Array.from({ length: FRAMES }, (_, frame) => answer(frame)),
   };
   let gate: { readonly frame: number; readonly then: () => void } | null = null;
@@ -357,8 +357,8 @@ describe('following', () => {
     await follower.follow();
     const from = (asked: readonly string[]) => asked.slice(asked.indexOf('seeSides') + 1);
     // The femur as it was followed, and as it is in the end.
-    const lost = ['depths', 'good', 'depths', 'lookBeside'];
-    const answered = ['depths', 'askFilm', 'lookFilm', 'lookFilm', 'depths', 'conclude', 'compare', 'conclude', 'let go'];
+    const lost = ['middles', 'good', 'middles', 'lookBeside'];
+    const answered = ['middles', 'askFilm', 'lookFilm', 'lookFilm', 'middles', 'conclude', 'compare', 'conclude', 'let go'];
     expect(from(femur.asked).toSorted()).toEqual(['conclude', 'sides', 'conclude', 'conclude', ...lost, ...answered].toSorted());
     expect(from(tibia.asked).toSorted()).toEqual(['sides', 'standsWith', 'look', ...lost, ...answered].toSorted());
     expect(from(tibia.asked).indexOf('lookBeside')).toBeGreaterThan(from(tibia.asked).indexOf('standsWith'));

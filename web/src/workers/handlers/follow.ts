@@ -25,8 +25,8 @@ serve<FollowProtocol>({
     await ready;
     return read(film, (begun) => given.forEach(({ frame, pose }) => begun.give(frame, Float64Array.from(poseArray(pose)))));
   },
-  askFilm: ({ otherDepths, ...film }) => {
-    const asked = rowsOf(working().toAsk(otherDepths), 7);
+  askFilm: ({ otherMiddles, ...film }) => {
+    const asked = rowsOf(working().toAsk(otherMiddles), 7);
     return read(film, (begun) => asked.forEach(([frame, ...pose]) => begun.ask(frame!, Float64Array.from(pose))));
   },
   lookFilm: (pixels) =>
@@ -71,11 +71,11 @@ serve<FollowProtocol>({
     return working().wanted() ?? null;
   },
   standsWith: ({ femurs }) => (working().standsWith(...numbers(femurs)) ? null : (working().wanted() ?? null)),
-  lookBeside: ({ other, otherDepths, femurs }) => {
-    working().lookBeside(allNumbers(other), otherDepths, ...numbers(femurs));
+  lookBeside: ({ other, otherMiddles, femurs }) => {
+    working().lookBeside(allNumbers(other), otherMiddles, ...numbers(femurs));
     return working().wanted() ?? null;
   },
-  good: ({ otherDepths }) => rowsOf(working().good(otherDepths), 6).map((pose) => (pose.every(Number.isFinite) ? poseFrom(Float64Array.from(pose)) : null)),
+  good: ({ otherMiddles }) => rowsOf(working().good(otherMiddles), 6).map((pose) => (pose.every(Number.isFinite) ? poseFrom(Float64Array.from(pose)) : null)),
   compare: ({ frames }) => {
     working().compareSides(Uint32Array.from(frames));
     return working().wanted() ?? null;
@@ -84,9 +84,9 @@ serve<FollowProtocol>({
     working().stop();
     return null;
   },
-  depths: () => working().depths() as Float64Array<ArrayBuffer>,
-  conclude: ({ otherDepths }) => {
-    const film = working().conclude(otherDepths);
+  middles: () => working().middles() as Float64Array<ArrayBuffer>,
+  conclude: ({ otherMiddles }) => {
+    const film = working().conclude(otherMiddles);
     const found = Array.from({ length: frames }, (_, frame): FollowedFrame => ({
       state: (film.state(frame) ?? 'unsolved') as FollowState,
       because: film.because(frame) ?? '',

@@ -31,12 +31,12 @@ export interface FollowProtocol extends FirstPosesProtocol {
    * good; gives the first frame that is to be searched.
    */
   lookBeside: {
-    input: { readonly other: readonly (PoseNumbers | null)[]; readonly otherDepths: Float64Array<ArrayBuffer>; readonly femurs: Femurs | null };
+    input: { readonly other: readonly (PoseNumbers | null)[]; readonly otherMiddles: Float64Array<ArrayBuffer>; readonly femurs: Femurs | null };
     output: number | null;
     progress: never;
   };
   /** The poses of the frames in which the component is good; of others none. */
-  good: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly (PoseNumbers | null)[]; progress: never };
+  good: { input: { readonly otherMiddles: Float64Array<ArrayBuffer> }; output: readonly (PoseNumbers | null)[]; progress: never };
   /** Begins to read profiles of the film in frames in which the component is good, for `lookFilm`; gives the first of them, or null where these are too few. */
   askFilm: { input: FilmAsked; output: number | null; progress: never };
   /** Begins to look at frames from the other side of the mirror; gives the first one. */
@@ -44,8 +44,8 @@ export interface FollowProtocol extends FirstPosesProtocol {
   /** Ends the work before all is done. */
   stop: { input: null; output: null; progress: never };
   /** Distances from the camera, mm; NaN where the component is not to be trusted. */
-  depths: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
-  conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
+  middles: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
+  conclude: { input: { readonly otherMiddles: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
 }
 
 interface FilmSubject {
@@ -60,7 +60,7 @@ export interface FilmReading extends FilmSubject {
 }
 
 export interface FilmAsked extends FilmSubject {
-  readonly otherDepths: Float64Array<ArrayBuffer>;
+  readonly otherMiddles: Float64Array<ArrayBuffer>;
 }
 
 export interface FilmSeen {

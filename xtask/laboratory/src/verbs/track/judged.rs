@@ -1,7 +1,7 @@
 //! Which frames of a component are good, by all that is known of both.
 
 use fluoropose::follow::{
-    Cell, Conclusion, FramePose, KnownBeside, KnownFemur, conclude, good_poses, trusted_depths,
+    Cell, Conclusion, FramePose, KnownBeside, KnownFemur, conclude, good_poses, trusted_middles,
 };
 use fluoropose::joint::beside::Beside;
 
@@ -19,12 +19,12 @@ pub(super) fn judged(
     joint: &[Option<Beside>],
 ) -> Vec<Conclusion> {
     let part = &parts[number];
-    let depths = other_of(number, parts).map_or(Vec::new(), |other| {
-        trusted_depths(&films[other], &margins[other], &parts[other].middle())
+    let middles = other_of(number, parts).map_or(Vec::new(), |other| {
+        trusted_middles(&films[other], &margins[other], &parts[other].middle())
     });
     let femur = femur_of(part, parts, films);
     let known = KnownBeside {
-        other_depths_mm: &depths,
+        other_middles: &middles,
         femur: femur.as_ref(),
         joint,
         other_shape: part.other_shape(),
