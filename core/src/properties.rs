@@ -3,10 +3,11 @@
 use core::any::Any;
 use core::fmt;
 use std::boxed::Box;
+use std::vec::{IntoIter, Vec};
 
-use proptest::strategy::{BoxedStrategy, Strategy};
+use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{
-    Config, TestCaseError, TestCaseResult, TestRunner, contextualize_config,
+    Config, Reason, TestCaseError, TestCaseResult, TestRunner, contextualize_config,
 };
 
 /// Tests whose arguments are drawn from strategies: `#[test] fn name(value in strategy) { ... }`, with `#![proptest_config(...)]` before them or the usual one.
@@ -44,56 +45,144 @@ pub(crate) struct Property {
     pub(crate) values: &'static str,
 }
 
-/// What was drawn, whatever it is.
-trait Values: Any + fmt::Debug {}
+/// A value that was drawn, whatever it is.
+pub(crate) trait Drawn: Any + fmt::Debug {}
 
-impl<T: Any + fmt::Debug> Values for T {}
+impl<T: Any + fmt::Debug> Drawn for T {}
 
+type DrawnTree = Box<dyn ValueTree<Value = Box<dyn Drawn>>>;
+
+/// A strategy, whatever its values are: several from which tests draw are one type for what puts them together, tries and shrinks.
+#[derive(Debug)]
+pub(crate) struct AnyStrategy(Box<dyn OfSomeValue>);
+
+trait OfSomeValue: fmt::Debug {
+    fn drawn_tree(&self, runner: &mut TestRunner) -> Result<DrawnTree, Reason>;
+}
+
+impl<S: Strategy<Tree: 'static, Value: 'static>> OfSomeValue for S {
+    fn drawn_tree(&self, runner: &mut TestRunner) -> Result<DrawnTree, Reason> {
+        Ok(Box::new(Tree(self.new_tree(runner)?)))
+    }
+}
+
+struct Tree<T>(T);
+
+impl<T: ValueTree<Value: 'static>> ValueTree for Tree<T> {
+    type Value = Box<dyn Drawn>;
+
+    fn current(&self) -> Self::Value {
+        Box::new(self.0.current())
+    }
+
+    fn simplify(&mut self) -> bool {
+        self.0.simplify()
+    }
+
+    fn complicate(&mut self) -> bool {
+        self.0.complicate()
+    }
+}
+
+impl Strategy for AnyStrategy {
+    type Tree = DrawnTree;
+    type Value = Box<dyn Drawn>;
+
+    fn new_tree(&self, runner: &mut TestRunner) -> Result<Self::Tree, Reason> {
+        self.0.drawn_tree(runner)
+    }
+}
+
+/// The strategies of a test's arguments.
+pub(crate) trait Strategies {
+    type Values: Values;
+
+    fn each(self) -> Vec<AnyStrategy>;
+}
+
+/// What was drawn from them.
+pub(crate) trait Values: Sized {
+    fn of(drawn: IntoIter<Box<dyn Drawn>>) -> Option<Self>;
+}
+
+macro_rules! strategies {
+    ($($type:ident $name:ident),+) => {
+        impl<$($type: Strategy<Tree: 'static, Value: 'static> + 'static),+> Strategies for ($($type,)+) {
+            type Values = ($($type::Value,)+);
+
+            fn each(self) -> Vec<AnyStrategy> {
+                let ($($name,)+) = self;
+                std::vec![$(AnyStrategy(Box::new($name))),+]
+            }
+        }
+
+        impl<$($type: 'static),+> Values for ($($type,)+) {
+            fn of(mut drawn: IntoIter<Box<dyn Drawn>>) -> Option<Self> {
+                Some(($(value::<$type>(drawn.next())?,)+))
+            }
+        }
+    };
+}
+
+strategies!(A a);
+strategies!(A a, B b);
+strategies!(A a, B b, C c);
+strategies!(A a, B b, C c, D d);
+strategies!(A a, B b, C c, D d, E e);
+strategies!(A a, B b, C c, D d, E e, F f);
+strategies!(A a, B b, C c, D d, E e, F f, G g);
+strategies!(A a, B b, C c, D d, E e, F f, G g, H h);
+strategies!(A a, B b, C c, D d, E e, F f, G g, H h, I i);
+
+fn value<T: 'static>(drawn: Option<Box<dyn Drawn>>) -> Option<T> {
+    let drawn: Box<dyn Any> = drawn?;
+    drawn.downcast().ok().map(|value| *value)
+}
+
+/// Says all that was drawn as one.
 struct Case {
     names: &'static str,
-    values: Box<dyn Values>,
+    values: Vec<Box<dyn Drawn>>,
 }
 
 impl fmt::Debug for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({}) = {:?}", self.names, self.values)
+        write!(f, "({}) = (", self.names)?;
+        for (at, value) in self.values.iter().enumerate() {
+            let before = if at == 0 { "" } else { ", " };
+            write!(f, "{before}{value:?}")?;
+        }
+        f.write_str(")")
     }
 }
 
 impl Property {
     /// Fails with the simplest case that was found for which `holds` does not.
-    pub(crate) fn holds<S>(
+    pub(crate) fn holds<S: Strategies>(
         self,
         config: Config,
-        strategy: S,
-        holds: impl Fn(S::Value) -> TestCaseResult,
-    ) where
-        S: Strategy + 'static,
-        S::Value: 'static,
-    {
-        let names = self.values;
-        let cases = strategy.prop_map(move |values| Case {
-            names,
-            values: Box::new(values),
-        });
-        self.run(config, &cases.boxed(), &|case| {
-            let values: Box<dyn Any> = case.values;
-            let other = |_| TestCaseError::fail("a case has values of another type");
-            holds(*values.downcast().map_err(other)?)
+        strategies: S,
+        holds: impl Fn(S::Values) -> TestCaseResult,
+    ) {
+        self.run(config, strategies.each(), &|drawn| {
+            let other = || TestCaseError::fail("a case has values of another type");
+            holds(S::Values::of(drawn).ok_or_else(other)?)
         });
     }
 
     fn run(
         self,
         config: Config,
-        cases: &BoxedStrategy<Case>,
-        holds: &dyn Fn(Case) -> TestCaseResult,
+        strategies: Vec<AnyStrategy>,
+        holds: &dyn Fn(IntoIter<Box<dyn Drawn>>) -> TestCaseResult,
     ) {
+        let names = self.values;
+        let cases = strategies.prop_map(move |values| Case { names, values });
         let mut config = contextualize_config(config);
         config.test_name = Some(self.name);
         config.source_file = Some(self.file);
         let mut runner = TestRunner::new(config);
-        if let Err(error) = runner.run(cases, holds) {
+        if let Err(error) = runner.run(&cases, |case| holds(case.values.into_iter())) {
             panic!("{error}\n{runner}");
         }
     }

@@ -2,6 +2,8 @@
 import assert from 'node:assert/strict';
 import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { Calls, PRESS } from './support/calls.mjs';
+import { exported } from './support/exporting.mjs';
+import { keepFollowed } from './support/followed.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline, truePose } from './support/study.mjs';
@@ -22,6 +24,7 @@ if (!IN_FIREFOX) {
     await tracing.openDemonstration(page, FEW_FRAMES);
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
+    keepFollowed(await exported(page, 'Session', 'With images and models'), FEW_FRAMES);
     await step(page, t, 'a click while it is followed is answered at once', () => clickedMeanwhile(page, t));
     await step(page, t, 'the tool in hand is in hand after a reload', async () => {
       await page.keyboard.press('b');

@@ -211,7 +211,7 @@ mod tests {
         }
     }
 
-    proptest! {
+    properties! {
         #[test]
         fn a_functional_has_its_nodes_and_slopes(
             ahead in proptest::array::uniform9(0u32..20_000),

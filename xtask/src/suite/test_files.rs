@@ -15,24 +15,16 @@ use crate::setup::failed::Failed;
 use crate::setup::telling;
 
 /// The longest, which begin first.
-const LONG: [&str; 17] = [
-    "shuttered",
-    "following",
-    "publishing",
+const LONG: [&str; 9] = [
+    "together/films.mjs",
+    "together/looks.mjs",
+    "together/by_command.mjs",
     "together/work.mjs",
     "together/small.mjs",
     "together/poses.mjs",
+    "together/own.mjs",
     "together/tools.mjs",
-    "from_nothing",
     "crash",
-    "certainty",
-    "bad_input",
-    "seeing",
-    "axe",
-    "hand",
-    "by_keys",
-    "own_data",
-    "axes",
 ];
 /// What is at fault by chance is at fault in a test or two. More files are not tried again.
 const MOST_TRIED_AGAIN: usize = 3;
