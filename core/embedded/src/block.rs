@@ -21,22 +21,10 @@ impl<'m> Block<'m> {
     }
 
     /// The next units, as they are.
-    pub(crate) fn units(&mut self, count: usize) -> Option<&'m mut [MaybeUninit<Unit>]> {
+    fn units(&mut self, count: usize) -> Option<&'m mut [MaybeUninit<Unit>]> {
         let (own, rest) = core::mem::take(&mut self.rest).split_at_mut_checked(count)?;
         self.rest = rest;
         Some(own)
-    }
-
-    /// A value; it is never dropped.
-    pub(crate) fn put<T>(&mut self, value: T) -> Option<&'m mut T> {
-        const { assert!(align_of::<T>() <= align_of::<Unit>()) };
-        let place = self.units(units_for::<T>(1)?)?.as_mut_ptr().cast::<T>();
-        // SAFETY: there is room for it by `units_for`, at a place that suits it by the assertion; nothing else reaches the units,
-        // which were split off for as long as 'm lasts.
-        unsafe {
-            place.write(value);
-            Some(&mut *place)
-        }
     }
 
     /// A list of `count` values, all of them `fill`; `None` where there is too little left.

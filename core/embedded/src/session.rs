@@ -1,14 +1,15 @@
 //! An implant that is looked for, frame after frame, in memory that was borrowed once.
 
+use core::task::Poll;
+
 use fluoropose::film::LineMemory;
 use fluoropose::finder::choice::ChoiceContext;
-use fluoropose::finder::{Decision, Wanted, find_paced};
+use fluoropose::finder::{Decision, FrameSearch, Wanted};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::{MaskError, Word};
 use fluoropose::image::runs::{PixelRun, RunBuilder};
 use fluoropose::implant::{ArenaNeeds, ImplantFile};
 use fluoropose::locate::partial::PartialMemory;
-use fluoropose::pace::Pace;
 use fluoropose::refine::BorderPixel;
 use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
@@ -29,6 +30,9 @@ pub struct Session<'m> {
     words: &'m mut [Word],
     runs: RunBuilder<'m>,
     seen: Seen,
+    search: FrameSearch,
+    /// Whether it was begun and has not ended.
+    searches: bool,
     found: Found,
     decision: Option<Decision>,
 }
@@ -99,6 +103,8 @@ impl<'m> Session<'m> {
             implant,
             camera,
             seen: Seen::Nothing,
+            search: FrameSearch::new(),
+            searches: false,
             found: Found::NOTHING,
             decision: None,
         })
@@ -117,6 +123,7 @@ impl<'m> Session<'m> {
     }
 
     fn forget(&mut self) {
+        self.searches = false;
         self.seen = Seen::Nothing;
         self.decision = None;
     }
@@ -160,6 +167,8 @@ impl<'m> Session<'m> {
         row: usize,
         pixels: impl IntoIterator<Item = bool>,
     ) -> Result<(), Failure> {
+        // A search is given up, as by all that is said of a frame.
+        self.searches = false;
         if !matches!(self.seen, Seen::Rows) {
             return Err(Failure::Order);
         }
@@ -170,12 +179,22 @@ impl<'m> Session<'m> {
         Ok(added?)
     }
 
-    /// Finds the poses that explain the silhouette, chooses among them and judges the choice; in slices.
+    /// Finds the poses that explain the silhouette, chooses among them and judges the choice: so many slices of it, which begin
+    /// the search where it was not begun.
     ///
     /// # Errors
-    /// [`Failure`].
-    pub async fn find(&mut self, pace: &Pace) -> Result<(), Failure> {
-        self.decision = None;
+    /// [`Failure`]; the search has ended then.
+    pub fn go_on(&mut self, slices: u32) -> Poll<Result<(), Failure>> {
+        if !self.searches {
+            self.search.restart();
+            (self.searches, self.decision) = (true, None);
+        }
+        let done = self.search_on(slices);
+        self.searches = done.is_pending();
+        done
+    }
+
+    fn search_on(&mut self, slices: u32) -> Poll<Result<(), Failure>> {
         let crop = self.part()?;
         let words = self.words.get(..crop.words_needed()).unwrap_or_default();
         let mask = Mask::new(words, crop.width(), crop.height())?;
@@ -190,9 +209,13 @@ impl<'m> Session<'m> {
             goal: Goal::Outline,
             options: RefineOptions::default(),
         };
-        find_paced(&wanted, memory, found, pace).await?;
-        self.decision = found.decide(&ChoiceContext::default());
-        Ok(())
+        for _ in 0..slices {
+            if let Poll::Ready(done) = self.search.go_on(&wanted, memory, found) {
+                self.decision = done.map(|()| found.decide(&ChoiceContext::default()))?;
+                return Poll::Ready(Ok(()));
+            }
+        }
+        Poll::Pending
     }
 
     /// The part of the frame with the silhouette, whose pixels are in memory then.

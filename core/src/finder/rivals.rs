@@ -1,5 +1,7 @@
 //! Refinement of several rival poses, and which of them explains what was seen best.
 
+use core::task::{Poll, ready};
+
 use heapless::Vec;
 
 use crate::finder::nearby::{about, nearby};
@@ -9,13 +11,12 @@ use crate::math::radians;
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::pace::{Pace, at_once};
+use crate::pace::to_the_end;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, Part, RefineError, RefineMemory, RefineOptions, Refined, Target, probe,
-    refine_unless,
+    CameraView, Part, RefineError, RefineMemory, RefineOptions, Refined, Refinement, Target,
 };
-use crate::shortlist::{keep, take_out};
+use crate::shortlist::{first_of, keep, take_out};
 
 /// Most poses that are refined as starts.
 pub const STARTS: usize = 6;
@@ -103,295 +104,414 @@ pub fn refine_rivals(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
-    let (mut answers, pace) = (Vec::new(), Pace::new());
-    let mut search = RivalRefinement {
+    let subject = Subject {
         model,
         views,
         planes,
         options,
-        memory,
-        pace: &pace,
-        answers: &mut answers,
     };
-    at_once(&pace, search.run(starts))?;
-    Ok(answers)
+    let mut rivals = Rivals::new();
+    rivals.begin(starts.iter().copied(), &subject);
+    to_the_end(|| rivals.go_on(&subject, memory))?;
+    Ok(rivals.poses.answers)
 }
 
-/// Refinement from a growing list of starts.
-pub(super) struct RivalRefinement<'s, 'm> {
+/// What was seen of a model, and how its poses are refined.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'s> {
     pub(super) model: &'s Model<'s>,
     pub(super) views: &'s [CameraView<'s>],
     pub(super) planes: &'s [SymmetryPlane],
     pub(super) options: RefineOptions,
-    pub(super) memory: &'s mut RefineMemory<'m>,
-    pub(super) pace: &'s Pace,
-    /// By rising loss; at first none. The list is long: a copy of it takes kilobytes of stack.
-    pub(super) answers: &'s mut Vec<RefinedRival, ANSWERS>,
 }
 
-impl RivalRefinement<'_, '_> {
-    /// All of [`refine_rivals`].
-    pub(super) async fn run(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
-        self.refine_starts(starts).await?;
-        self.mirror().await;
-        if !self.look_beside().await {
-            self.look_closer().await;
+/// Which poses are tried, one after the other.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Round {
+    /// Of several starts the first stage, which tells where each leads.
+    First,
+    /// What may be the best of these, to the end.
+    Rest,
+    /// Starts, to the end.
+    Starts,
+    /// Mirror images of all poses so far.
+    Mirrors,
+    /// Both sides of the best pose.
+    Beside,
+    /// All around it.
+    Around,
+}
+
+/// What is done with a pose of a round.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Doing {
+    /// The next is to be chosen.
+    Choosing,
+    /// A quick look at where it leads.
+    Looking,
+    /// It is refined.
+    Refining,
+    /// There is none left.
+    Nothing,
+}
+
+/// All of [`refine_rivals`] between two drawings.
+pub(super) struct Rivals {
+    poses: Poses,
+    failure: Option<RefineError>,
+    /// Number of the next pose of the round.
+    next: usize,
+    /// The one at hand, and how it is refined.
+    tried: RefinedRival,
+    refinement: Refinement,
+}
+
+/// The poses of a search, and what is done with them.
+struct Poses {
+    /// By rising loss; at first none.
+    answers: Vec<RefinedRival, ANSWERS>,
+    /// Those of a round.
+    open: Vec<RefinedRival, STARTS>,
+    round: Round,
+    doing: Doing,
+    is_outline: bool,
+    /// The best pose, when the round began or a mirror image was looked at.
+    best: RefinedRival,
+    /// A quick look beside it has led back to it where it ends nearer than this, degrees.
+    back_deg: f64,
+    /// Whether all quick looks of the round led back.
+    all_back: bool,
+}
+
+impl Rivals {
+    /// Nothing to do.
+    pub(super) fn new() -> Self {
+        let none = RefinedRival::at(Pose::IDENTITY, 0, false);
+        Self {
+            poses: Poses {
+                answers: Vec::new(),
+                open: Vec::new(),
+                round: Round::Starts,
+                doing: Doing::Nothing,
+                is_outline: false,
+                best: none,
+                back_deg: BACK_DEG,
+                all_back: false,
+            },
+            failure: None,
+            next: 0,
+            tried: none,
+            refinement: Refinement::new(&Pose::IDENTITY),
         }
-        keep_distinct(self.answers);
-        Ok(())
     }
 
-    /// Refines a pose, unless it leads on to one that is there already: of an outline, because on a frame all are brought to the end.
-    async fn go_on(
+    /// What was found, by rising loss.
+    pub(super) fn answers(&self) -> &[RefinedRival] {
+        &self.poses.answers
+    }
+
+    /// Begins with the first [`STARTS`] of these. Of several, the first stage tells where each leads, and only the poses that
+    /// may be the best are refined to the end, each once.
+    pub(super) fn begin(&mut self, starts: impl Iterator<Item = Pose>, subject: &Subject<'_>) {
+        let poses = &mut self.poses;
+        let starts = (0..).zip(starts);
+        poses.open = first_of(starts.map(|(start, pose)| RefinedRival::at(pose, start, false)));
+        poses.answers.clear();
+        poses.is_outline = is_outline(subject.views);
+        poses.round = match (poses.open.len(), poses.is_outline) {
+            (2.., true) => Round::First,
+            _ => Round::Starts,
+        };
+        poses.doing = Doing::Choosing;
+        (self.next, self.failure) = (0, None);
+    }
+
+    /// Draws once, and takes in what is seen; [`Poll::Ready`] where nothing is left to draw.
+    #[inline(never)]
+    pub(super) fn go_on(
         &mut self,
-        pose: &Pose,
-        (from, index, mirrored): (&Pose, usize, bool),
-    ) -> Result<Went, RefineError> {
-        let (answers, is_outline) = (&*self.answers, self.is_outline());
-        let known = |pose: &Pose| is_outline && is_among(answers, pose);
-        let (seen, options) = ((self.model, self.views), self.options);
-        let (start, part) = (&Refined::at(*pose), Part::All);
-        let refined = refine_unless(seen, start, part, options, &known, self.memory, self.pace);
-        match refined.await? {
-            None => Ok(Went::Back),
-            Some(refined) => {
-                self.keep(*from, refined, index, mirrored);
-                Ok(Went::On)
+        subject: &Subject<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Poll<Result<(), RefineError>> {
+        while self.poses.doing == Doing::Choosing {
+            if self.has_drawn(subject, memory) {
+                return Poll::Pending;
+            }
+        }
+        if self.poses.doing == Doing::Nothing {
+            let failure = self.failure.filter(|_| self.poses.answers.is_empty());
+            return Poll::Ready(failure.map_or(Ok(()), Err));
+        }
+        let (poses, seen) = (&self.poses, (subject.model, subject.views));
+        let known = |pose: &Pose| poses.is_known(pose);
+        let (options, refinement) = (subject.options, &mut self.refinement);
+        let ended = ready!(refinement.go_on(seen, options, &known, memory, &mut |_| ()));
+        self.take(ended);
+        Poll::Pending
+    }
+
+    /// Begins with the next pose of the round, or with the next round; gives whether the model was drawn for that.
+    fn has_drawn(&mut self, subject: &Subject<'_>, memory: &mut RefineMemory<'_>) -> bool {
+        let (poses, next) = (&mut self.poses, self.next);
+        // Each pose has an image in each plane.
+        let times = match poses.round {
+            Round::Mirrors => subject.planes.len(),
+            _ => 1,
+        };
+        let tried = next.checked_div(times).and_then(|at| poses.open.get(at));
+        let Some(&tried) = tried else {
+            self.next = 0;
+            return poses.next_round(subject, memory);
+        };
+        (self.next, self.tried) = (next + 1, tried);
+        match poses.round {
+            Round::First => self.refine(Part::First, &tried.refined),
+            Round::Rest => self.refine(Part::Rest, &tried.refined),
+            Round::Starts => self.refine(Part::All, &tried.refined),
+            Round::Beside | Round::Around => self.refine(Part::Probe, &tried.refined),
+            Round::Mirrors => {
+                let plane = next
+                    .checked_rem(times)
+                    .and_then(|at| subject.planes.get(at));
+                plane.inspect(|plane| self.mirror(plane, subject, memory));
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Goes on with the mirror image of a pose, where it covers what was seen.
+    fn mirror(
+        &mut self,
+        plane: &SymmetryPlane,
+        subject: &Subject<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) {
+        let own = self.tried.refined.pose;
+        let mirrored = mirror_pose(&own, plane);
+        let mut views = subject.views.iter();
+        if !views.all(|view| is_near(subject.model, view, &mirrored, &own, memory)) {
+            return;
+        }
+        self.tried = RefinedRival::at(mirrored, self.tried.start, true);
+        if let Some(best) = self.poses.answers.first() {
+            self.poses.best = *best;
+        }
+        // Edges of a frame are too many for a quick look.
+        let part = match self.poses.is_outline {
+            true => Part::Probe,
+            false => Part::All,
+        };
+        self.refine(part, &Refined::at(mirrored));
+    }
+
+    fn refine(&mut self, part: Part, begun: &Refined) {
+        self.poses.doing = match part {
+            Part::Probe => Doing::Looking,
+            _ => Doing::Refining,
+        };
+        self.refinement.begin(part, begun);
+    }
+
+    /// Takes in where a pose has led.
+    fn take(&mut self, ended: Result<(), RefineError>) {
+        let (poses, led) = (&mut self.poses, self.refinement.state);
+        let where_to = match ended {
+            Err(error) => {
+                self.failure = Some(error);
+                Led::Nowhere
+            }
+            Ok(()) if poses.is_known(&led.pose) => Led::Back,
+            Ok(()) if poses.doing == Doing::Looking => poses.led(&led),
+            Ok(()) => {
+                self.tried.refined = led;
+                keep(&mut poses.answers, self.tried, |other| other.refined.loss);
+                Led::Nowhere
+            }
+        };
+        poses.doing = Doing::Choosing;
+        match where_to {
+            Led::Back => {}
+            Led::Nowhere => poses.all_back = false,
+            Led::On => {
+                if poses.round != Round::Mirrors {
+                    self.tried.from = led.pose;
+                }
+                self.refine(Part::All, &Refined::at(led.pose));
             }
         }
     }
+}
 
-    fn keep(&mut self, from: Pose, refined: Refined, start: usize, mirrored: bool) {
-        let answer = RefinedRival {
+impl RefinedRival {
+    /// A pose before it is refined.
+    fn at(from: Pose, start: usize, mirrored: bool) -> Self {
+        Self {
             start,
             mirrored,
             from,
-            refined,
-        };
-        keep(self.answers, answer, |other| other.refined.loss);
-    }
-
-    /// Refines the starts. Of several, the first stage tells where each leads, and only the poses that may be the best are
-    /// refined to the end, each once.
-    async fn refine_starts(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
-        let starts = &starts[..starts.len().min(STARTS)];
-        let mut failure = None;
-        if let ([_, _, ..], true) = (starts, self.is_outline()) {
-            let mut begun = Vec::new();
-            self.begin_all(starts, &mut begun, &mut failure).await;
-            for (start, begun) in &begun {
-                let (seen, options) = ((self.model, self.views), self.options);
-                let (answers, part) = (&*self.answers, Part::Rest);
-                let known = |pose: &Pose| is_among(answers, pose);
-                let finished =
-                    refine_unless(seen, begun, part, options, &known, self.memory, self.pace);
-                match finished.await {
-                    Ok(None) => {}
-                    Ok(Some(refined)) => {
-                        let from = starts.get(*start).unwrap_or(&begun.pose);
-                        self.keep(*from, refined, *start, false);
-                    }
-                    Err(error) => failure = Some(error),
-                }
-            }
-        } else {
-            for (start, pose) in starts.iter().enumerate() {
-                if let Err(error) = self.go_on(pose, (pose, start, false)).await {
-                    failure = Some(error);
-                }
-            }
-        }
-        match failure.filter(|_| self.answers.is_empty()) {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
-    }
-
-    /// Whether all that was seen are silhouettes: edges of a frame are too many for a quick look.
-    fn is_outline(&self) -> bool {
-        let outline = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
-        self.views.iter().all(outline)
-    }
-
-    /// Where the first stage leads from the starts, each pose once, and only those that may be the best.
-    async fn begin_all(
-        &mut self,
-        starts: &[Pose],
-        begun: &mut Vec<(usize, Refined), STARTS>,
-        failure: &mut Option<RefineError>,
-    ) {
-        for (start, pose) in starts.iter().enumerate() {
-            let known = |pose: &Pose| {
-                let mut begun = begun.iter();
-                begun.any(|(_, other)| is_on_the_way(pose, &other.pose, LOOKED_SAME_DEG))
-            };
-            let (seen, options) = ((self.model, self.views), self.options);
-            let (at, part) = (&Refined::at(*pose), Part::First);
-            let begun_here = refine_unless(seen, at, part, options, &known, self.memory, self.pace);
-            match begun_here.await {
-                Ok(None) => {}
-                Ok(Some(one)) => {
-                    keep(begun, (start, one), |(_, one)| one.loss);
-                }
-                Err(error) => *failure = Some(error),
-            }
-        }
-        keep_open(begun);
-    }
-
-    /// Refines the mirror images of all poses so far, where they cover what was seen.
-    async fn mirror(&mut self) {
-        // At most one of each start so far.
-        let mut distinct: Vec<(usize, Pose), STARTS> = Vec::new();
-        for RefinedRival { start, refined, .. } in &*self.answers {
-            if !distinct
-                .iter()
-                .any(|(_, other)| is_same(other, &refined.pose))
-            {
-                let _ = distinct.push((*start, refined.pose));
-            }
-        }
-        for &(start, pose) in &distinct {
-            for plane in self.planes {
-                let mirrored = mirror_pose(&pose, plane);
-                self.pace.pause().await;
-                let near = self
-                    .views
-                    .iter()
-                    .all(|view| is_near(self.model, view, &mirrored, &pose, self.memory));
-                if !near {
-                    continue;
-                }
-                if let Some(led) = self.leads_elsewhere(&mirrored).await {
-                    // A mirror image that leads nowhere is no rival.
-                    let _ = self.go_on(&led, (&mirrored, start, true)).await;
-                }
-            }
-        }
-    }
-
-    /// Where a quick look finds that a pose leads to what may fit as well as the best, and was not found before.
-    async fn leads_elsewhere(&mut self, start: &Pose) -> Option<Pose> {
-        let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
-            return Some(*start);
-        };
-        let answers = &*self.answers;
-        let known = |pose: &Pose| {
-            answers.iter().any(|RefinedRival { refined, .. }| {
-                is_on_the_way(pose, &refined.pose, blurred_deg(refined))
-            })
-        };
-        let (model, views, options) = (self.model, self.views, self.options);
-        let looked = probe(model, views, start, options, &known, self.memory, self.pace);
-        let Ok(Some(looked)) = looked.await else {
-            return None;
-        };
-        let known = |RefinedRival { refined, .. }: &RefinedRival| {
-            let apart = geodesic_deg(&refined.pose.rotation, &looked.pose.rotation);
-            apart < blurred_deg(refined) && looked.loss > refined.loss / ALIKE
-        };
-        let limit = LOOKED_WORSE * best.refined.loss.max(LOOKED_PX2);
-        (looked.loss <= limit && !self.answers.iter().any(known)).then_some(looked.pose)
-    }
-
-    /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
-    /// pose, about both axes out of the image plane, it is tried whether another is there. Gives whether all that was tried
-    /// led back: then no false minimum lies nearer either, it would have been met.
-    async fn look_beside(&mut self) -> bool {
-        let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
-            return false;
-        };
-        if self.planes.is_empty() || !self.is_outline() || view.placement != Pose::IDENTITY {
-            return false;
-        }
-        let middle = self.model.bounds().centre;
-        let back = blurred_deg(&best.refined).max(BACK_DEG);
-        let mut all_back = true;
-        for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
-            let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
-            let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
-            all_back &= match self.probe(&start, &best.refined, back).await {
-                Led::Back => true,
-                Led::Nowhere => false,
-                Led::To(found) => {
-                    let came_from = (&found, best.start, best.mirrored);
-                    // From there it leads somewhere.
-                    matches!(self.go_on(&found, came_from).await, Ok(Went::Back))
-                }
-            };
-        }
-        all_back
-    }
-
-    /// Where most of the outline fits exactly and a part does not, the best pose may be a false minimum near the right
-    /// one: refinement starts again from poses around it.
-    async fn look_closer(&mut self) {
-        let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
-            return;
-        };
-        let Target::Silhouette(silhouette) = &view.target else {
-            return;
-        };
-        if !is_split(&best.refined) || view.placement != Pose::IDENTITY {
-            return;
-        }
-        let (model, camera, pose) = (self.model, view.camera, &best.refined.pose);
-        // All of its drawings in one slice; few poses need it.
-        self.pace.pause().await;
-        let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
-        let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
-        for start in starts.iter().filter(apart) {
-            if let Led::To(found) = self.probe(start, &best.refined, BACK_DEG).await {
-                let came_from = (&found, best.start, best.mirrored);
-                // From there it leads somewhere.
-                let _ = self.go_on(&found, came_from).await;
-            }
-        }
-    }
-
-    /// Where a start leads: most lead to the best pose again, to within `back_deg`, or to a worse one.
-    async fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Led {
-        let known = |pose: &Pose| is_on_the_way(pose, &best.pose, back_deg);
-        let (model, views, options) = (self.model, self.views, self.options);
-        let looked = probe(model, views, start, options, &known, self.memory, self.pace);
-        let found = match looked.await {
-            Ok(Some(found)) => found,
-            Ok(None) => return Led::Back,
-            Err(_) => return Led::Nowhere,
-        };
-        let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
-        if apart <= back_deg {
-            Led::Back
-        } else if found.loss < ALIKE * best.loss {
-            Led::To(found.pose)
-        } else {
-            Led::Nowhere
+            refined: Refined::at(from),
         }
     }
 }
 
-/// Where a quick look beside the best pose leads.
+impl Poses {
+    /// Whether it is known where a pose leads that is on the way. Noise leaves several minima beside each other: of those the
+    /// best is wanted.
+    fn is_known(&self, pose: &Pose) -> bool {
+        let is_near =
+            |other: &RefinedRival, within_deg| is_on_the_way(pose, &other.refined.pose, within_deg);
+        let mut answers = self.answers.iter();
+        match (self.doing, self.round) {
+            (Doing::Looking, Round::Mirrors) => {
+                answers.any(|other| is_near(other, blurred_deg(&other.refined)))
+            }
+            (Doing::Looking, _) => is_near(&self.best, self.back_deg),
+            (_, Round::First) => answers.any(|other| is_near(other, LOOKED_SAME_DEG)),
+            // On a frame all are brought to the end.
+            _ => self.is_outline && answers.any(|other| is_near(other, BACK_DEG)),
+        }
+    }
+
+    /// Where a quick look has led: mostly to the best pose again, or to a worse one.
+    fn led(&self, looked: &Refined) -> Led {
+        let apart = |other: &Refined| geodesic_deg(&other.pose.rotation, &looked.pose.rotation);
+        let best = &self.best.refined;
+        let is_open = match self.round {
+            // What may fit as well as the best, and was not found before.
+            Round::Mirrors => {
+                let known = |RefinedRival { refined, .. }: &RefinedRival| {
+                    apart(refined) < blurred_deg(refined) && looked.loss > refined.loss / ALIKE
+                };
+                let limit = LOOKED_WORSE * best.loss.max(LOOKED_PX2);
+                looked.loss <= limit && !self.answers.iter().any(known)
+            }
+            _ if apart(best) <= self.back_deg => return Led::Back,
+            _ => looked.loss < ALIKE * best.loss,
+        };
+        if is_open { Led::On } else { Led::Nowhere }
+    }
+
+    /// Begins with the next round; gives whether the model was drawn to find its poses.
+    fn next_round(&mut self, subject: &Subject<'_>, memory: &mut RefineMemory<'_>) -> bool {
+        let only = match subject.views {
+            [view] if view.placement == Pose::IDENTITY => Some(view),
+            _ => None,
+        };
+        match (self.round, self.answers.first().copied(), only) {
+            (Round::First, ..) => self.go_on_with_begun(),
+            (Round::Rest | Round::Starts, ..) => self.mirror_all(),
+            (Round::Mirrors, Some(best), Some(_))
+                if self.is_outline && !subject.planes.is_empty() =>
+            {
+                self.look_beside(&best, subject.model);
+            }
+            (Round::Mirrors, Some(best), Some(view)) => {
+                return self.look_around(&best, subject.model, view, memory);
+            }
+            // Where all led back no false minimum lies nearer either: it would have been met.
+            (Round::Beside, Some(best), Some(view)) if !self.all_back => {
+                return self.look_around(&best, subject.model, view, memory);
+            }
+            _ => self.end(),
+        }
+        false
+    }
+
+    fn end(&mut self) {
+        keep_open(&mut self.answers, f64::INFINITY, SAME_DEG);
+        self.doing = Doing::Nothing;
+    }
+
+    /// Of what the first stage led to those poses that it leaves open, to the end.
+    fn go_on_with_begun(&mut self) {
+        let least = self.answers.first().map_or(0.0, |best| best.refined.loss);
+        let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
+        keep_open(&mut self.answers, limit, LOOKED_SAME_DEG);
+        self.open = first_of(self.answers.iter().copied());
+        self.answers.clear();
+        self.round = Round::Rest;
+    }
+
+    /// Mirror images of all poses so far.
+    fn mirror_all(&mut self) {
+        self.open.clear();
+        for answer in &self.answers {
+            let mut before = self.open.iter();
+            if !before.any(|other| is_within(other, answer, SAME_DEG)) {
+                // At most one of each start so far.
+                let _ = self.open.push(*answer);
+            }
+        }
+        self.round = Round::Mirrors;
+    }
+
+    /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
+    /// pose, about both axes out of the image plane, it is tried whether another is there.
+    fn look_beside(&mut self, best: &RefinedRival, model: &Model<'_>) {
+        let (middle, pose) = (model.bounds().centre, &best.refined.pose);
+        let turns = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+        let starts = turns.into_iter().map(|turn| {
+            let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
+            about(&middle, pose, &[x, y, 0.0], [0.0; 3])
+        });
+        let back_deg = blurred_deg(&best.refined).max(BACK_DEG);
+        self.try_beside(Round::Beside, best, back_deg, starts);
+    }
+
+    /// Where most of the outline fits exactly and a part does not, the best pose may be a false minimum near the right
+    /// one: refinement starts again from poses around it. All drawings for that are one slice; few poses need it.
+    fn look_around(
+        &mut self,
+        best: &RefinedRival,
+        model: &Model<'_>,
+        view: &CameraView<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> bool {
+        let Target::Silhouette(silhouette) = &view.target else {
+            self.end();
+            return false;
+        };
+        if !is_split(&best.refined) {
+            self.end();
+            return false;
+        }
+        let pose = &best.refined.pose;
+        let starts = nearby(model, view.camera, silhouette, pose, CLOSE_DEG, memory);
+        let apart = |start: &Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
+        let starts = starts.iter().copied().filter(apart);
+        self.try_beside(Round::Around, best, BACK_DEG, starts);
+        true
+    }
+
+    fn try_beside(
+        &mut self,
+        round: Round,
+        best: &RefinedRival,
+        back_deg: f64,
+        starts: impl Iterator<Item = Pose>,
+    ) {
+        let tried = |start| RefinedRival::at(start, best.start, best.mirrored);
+        self.open = first_of(starts.map(tried));
+        (self.round, self.best, self.back_deg) = (round, *best, back_deg);
+        self.all_back = true;
+    }
+}
+
+/// Whether all that was seen are silhouettes.
+fn is_outline(views: &[CameraView<'_>]) -> bool {
+    let outline = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
+    views.iter().all(outline)
+}
+
+/// Where a quick look leads.
 enum Led {
-    /// To the best pose again.
+    /// To where another led before.
     Back,
     /// To a worse pose, or to none.
     Nowhere,
     /// To a pose that may be better.
-    To(Pose),
-}
-
-/// Whether what a quick look led to was there already.
-enum Went {
-    Back,
     On,
-}
-
-/// Whether a pose that is being refined has come to one that was.
-fn is_among(answers: &[RefinedRival], pose: &Pose) -> bool {
-    answers.iter().any(|RefinedRival { refined, .. }| {
-        // Noise leaves several minima beside each other: of those the best is wanted.
-        is_on_the_way(pose, &refined.pose, BACK_DEG)
-    })
 }
 
 /// Whether a quick look that has come to `pose` will end within so many degrees of `other`: it is well on the way there.
@@ -439,37 +559,20 @@ fn is_near(
     there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
 
-/// Keeps those poses that a quick look leaves open, each once, where it comes first: they are listed by rising loss.
-fn keep_open(begun: &mut Vec<(usize, Refined), STARTS>) {
-    let least = begun.first().map_or(0.0, |(_, best)| best.loss);
-    let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
+/// Keeps those poses whose loss is within a limit, each once, where it comes first: they are listed by rising loss.
+fn keep_open(rivals: &mut Vec<RefinedRival, ANSWERS>, limit: f64, within_deg: f64) {
     let mut place = 0;
-    while let Some((_, one)) = begun.get(place) {
-        let same = |(_, other): &(usize, Refined)| {
-            geodesic_deg(&other.pose.rotation, &one.pose.rotation) < LOOKED_SAME_DEG
-        };
-        if one.loss > limit || begun.iter().take(place).any(same) {
-            take_out(begun, place);
+    while let Some(one) = rivals.get(place) {
+        let mut before = rivals.iter().take(place);
+        let is_there = before.any(|other| is_within(other, one, within_deg));
+        if one.refined.loss > limit || is_there {
+            take_out(rivals, place);
         } else {
             place += 1;
         }
     }
 }
 
-/// Keeps each pose once, where it comes first.
-fn keep_distinct(answers: &mut Vec<RefinedRival, ANSWERS>) {
-    let mut place = 0;
-    while let Some(RefinedRival { refined, .. }) = answers.get(place) {
-        let pose = refined.pose;
-        let mut before = answers.iter().take(place);
-        if before.any(|other| is_same(&other.refined.pose, &pose)) {
-            take_out(answers, place);
-        } else {
-            place += 1;
-        }
-    }
-}
-
-fn is_same(a: &Pose, b: &Pose) -> bool {
-    geodesic_deg(&a.rotation, &b.rotation) < SAME_DEG
+fn is_within(a: &RefinedRival, b: &RefinedRival, within_deg: f64) -> bool {
+    geodesic_deg(&a.refined.pose.rotation, &b.refined.pose.rotation) < within_deg
 }
