@@ -225,9 +225,9 @@ impl<'a> Problem<'a> {
         let mut samples = None;
         for view in self.views {
             let stage = pass.stage(&view.target);
-            let (pose, offset) = (&state.pose, state.offset_px);
-            let count = self.observe_view(view, pose, offset, &stage, memory)?;
-            let motion = self.motion(view, &view.placement.compose(pose));
+            let pose = view.placement.compose(&state.pose);
+            let count = self.observe_view(view, &pose, state.offset_px, &stage, memory)?;
+            let motion = self.motion(view, &pose);
             let border = memory.border.get(..count).unwrap_or_default();
             equations.add_samples(border, &motion, &stage);
             samples = Some(count);
@@ -279,17 +279,16 @@ impl<'a> Problem<'a> {
         Motion::of(view, &in_camera.transform(&self.middle))
     }
 
-    /// Draws the model in a view and measures how far its outline is from the target's. Afterwards
+    /// Draws the model in a view, in which it has a pose, and measures how far its outline is from the target's. Afterwards
     /// `memory.border` begins with its samples, whose number is returned.
     pub(super) fn observe_view(
         &self,
         view: &CameraView<'_>,
-        pose: &Pose,
+        in_camera: &Pose,
         offset: f64,
         stage: &Stage,
         memory: &mut RefineMemory<'_>,
     ) -> Result<usize, RefineError> {
-        let pose = view.placement.compose(pose);
         let sampling = Sampling {
             depth: Depth::of(&view.target, stage),
             every: stage.every.unwrap_or(self.effort.every()),
@@ -301,11 +300,11 @@ impl<'a> Problem<'a> {
             border,
             projected,
             film,
-        } = draw(self.model, view.camera, &pose, sampling, memory)?;
+        } = draw(self.model, view.camera, in_camera, sampling, memory)?;
         if view.target.hides(&drawn) {
             return Err(RefineError::BeyondCrop);
         }
-        let edges = DrawnEdges::of(self.model, &pose, view, stage, border, projected, film)?;
+        let edges = DrawnEdges::of(self.model, in_camera, view, stage, border, projected, film)?;
         let count = border.len();
         let eye = Eye {
             view,
