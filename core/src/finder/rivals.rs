@@ -439,8 +439,9 @@ impl Poses {
         for answer in &self.answers {
             let mut before = self.open.iter();
             if !before.any(|other| is_within(other, answer, SAME_DEG)) {
+                let own = RefinedRival::at(answer.refined.pose, answer.start, false);
                 // At most one of each start so far.
-                let _ = self.open.push(*answer);
+                let _ = self.open.push(own);
             }
         }
         self.round = Round::Mirrors;
