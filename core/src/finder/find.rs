@@ -183,12 +183,25 @@ impl FrameSearch {
         self.at = At::Start;
     }
 
-    /// Does a slice; [`Poll::Ready`] is the last. What is wanted, and the memory with all that is in it, must be those of the slice
-    /// before.
+    /// Does a slice; [`Poll::Ready`] is the last, and the one after it begins anew. What is wanted, and the memory with all that is
+    /// in it, must be those of the slice before.
     ///
     /// # Errors
     /// As [`find`]; what `found` holds then, or while slices are left, means nothing.
     pub fn go_on(
+        &mut self,
+        wanted: &Wanted<'_>,
+        memory: &mut FinderMemory<'_>,
+        found: &mut Found,
+    ) -> Poll<Result<(), FindError>> {
+        let done = self.slice(wanted, memory, found);
+        if done.is_ready() {
+            self.restart();
+        }
+        done
+    }
+
+    fn slice(
         &mut self,
         wanted: &Wanted<'_>,
         memory: &mut FinderMemory<'_>,

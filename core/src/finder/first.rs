@@ -81,7 +81,7 @@ impl FirstSearch {
     /// As new.
     pub(super) fn restart(&mut self) {
         self.first.poses.clear();
-        self.first.partial = false;
+        (self.first.clipped, self.first.partial) = (false, false);
         (self.drawn, self.undrawable) = (None, None);
     }
 

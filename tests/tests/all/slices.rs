@@ -5,7 +5,9 @@ use std::task::Poll;
 
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::first_poses;
-use fluoropose::finder::{FinderBuffers, FirstPoses, Found, Goal, Wanted, find_into, find_paced};
+use fluoropose::finder::{
+    FinderBuffers, FirstPoses, Found, FrameSearch, Goal, Wanted, find_into, find_paced,
+};
 use fluoropose::image::mask::words_needed;
 use fluoropose::implant::ImplantFile;
 use fluoropose::pace::{Pace, go_on};
@@ -44,6 +46,7 @@ fn in_slices_the_same_is_found_to_the_last_bit() {
         let file = ImplantFile::open(bytes.bytes()).expect("whole");
         let (camera, component) = (camera(), file.component());
         let mut buffers = FinderBuffers::default();
+        let mut search = FrameSearch::new();
         for (number, euler) in poses().step_by(8).enumerate() {
             let mut words = drawn(&own, euler);
             if number == 1 {
@@ -89,6 +92,24 @@ fn in_slices_the_same_is_found_to_the_last_bit() {
                         (at_once.clipped, at_once.partial)
                     );
                 }
+                // One search, frame after frame, begun anew where the one before was given up on its way.
+                let mut found = Found::NOTHING;
+                search.restart();
+                for _ in 0..3 {
+                    assert!(search.go_on(&wanted, &mut memory, &mut found).is_pending());
+                }
+                search.restart();
+                let mut go_on = || search.go_on(&wanted, &mut memory, &mut found);
+                let mut slices = core::iter::repeat_with(&mut go_on).skip_while(Poll::is_pending);
+                assert_eq!(slices.next(), Some(Poll::Ready(Ok(()))));
+                // What comes after the end is the first slice again.
+                assert_eq!(slices.next(), Some(Poll::Pending));
+                search.restart();
+                assert_eq!(found.candidates, at_once.candidates, "{euler:?}");
+                assert_eq!(
+                    (found.clipped, found.partial),
+                    (at_once.clipped, at_once.partial)
+                );
                 let context = ChoiceContext::default();
                 assert!(at_once.decide(&context).is_some());
                 mirrored += usize::from(at_once.candidates.len() > 1);
