@@ -30,10 +30,10 @@ pub struct Session<'m> {
     words: &'m mut [Word],
     runs: RunBuilder<'m>,
     seen: Seen,
-    search: FrameSearch,
+    search: &'m mut FrameSearch,
     /// Whether it was begun and has not ended.
     searches: bool,
-    found: Found,
+    found: &'m mut Found,
     decision: Option<Decision>,
 }
 
@@ -64,6 +64,8 @@ pub(crate) fn units_needed(implant: &ImplantFile<'_>, room: &Room) -> Option<usi
         units_for::<u16>(needs.places)?,
         units_for::<BorderPixel>(room.border as usize)?,
         units_for::<PixelRun>(room.runs as usize)?,
+        units_for::<FrameSearch>(1)?,
+        units_for::<Found>(1)?,
     ]
     .into_iter()
     .try_fold(0usize, usize::checked_add)
@@ -92,6 +94,8 @@ impl<'m> Session<'m> {
         let runs = block.take(room.runs as usize, PixelRun::EMPTY);
         let words = block.take(needs.words, 0);
         let memory = finder_memory(&mut block, &needs, room);
+        // Both are long: where they stand they stay.
+        let (search, found) = (block.put(FrameSearch::new), block.put(|| Found::NOTHING));
         Ok(Self {
             runs: RunBuilder::new(
                 runs.ok_or(Failure::Memory)?,
@@ -103,9 +107,9 @@ impl<'m> Session<'m> {
             implant,
             camera,
             seen: Seen::Nothing,
-            search: FrameSearch::new(),
+            search: search.ok_or(Failure::Memory)?,
             searches: false,
-            found: Found::NOTHING,
+            found: found.ok_or(Failure::Memory)?,
             decision: None,
         })
     }
@@ -201,7 +205,7 @@ impl<'m> Session<'m> {
         let silhouette = Silhouette::from(&mask).in_crop(&crop)?;
         let camera = self.camera.cropped(&crop)?;
         let component = self.implant.component();
-        let (memory, found) = (&mut self.memory, &mut self.found);
+        let (memory, found) = (&mut self.memory, &mut *self.found);
         let wanted = Wanted {
             component: &component,
             camera: &camera,
