@@ -20,6 +20,7 @@ mod memory;
 mod mirrored;
 pub mod nearby;
 pub mod rivals;
+mod rounds;
 mod usual;
 mod verdict;
 

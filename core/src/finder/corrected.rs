@@ -4,7 +4,8 @@ use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
 use super::mirrored::add_mirror_images;
-use super::rivals::{RefinedRival, SAME_DEG, refine_rivals};
+use super::rivals::{RefinedRival, refine_rivals};
+use super::rounds::SAME_DEG;
 use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
