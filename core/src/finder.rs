@@ -20,6 +20,7 @@ mod memory;
 mod mirrored;
 pub mod nearby;
 pub mod rivals;
+mod rounds;
 mod usual;
 mod verdict;
 
@@ -30,7 +31,7 @@ pub use candidate::{CANDIDATES, Candidate};
 pub use component::Component;
 pub use corrected::{correct_candidates, onto_target};
 pub use error::FindError;
-pub use find::{Found, Goal, Wanted, find, find_into, find_paced};
+pub use find::{Found, FrameSearch, Goal, Wanted, find, find_into, find_paced};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 #[cfg(feature = "alloc")]
 pub use flipped::{FlippedFit, FlippedKnee, FlippedLooks};

@@ -7,10 +7,13 @@
 //! ```
 //! use core::pin::pin;
 //! use core::task::Poll;
-//! use fluoropose::pace::{Pace, go_on};
+//! use fluoropose::pace::{Pace, go_on, in_slices};
 //!
-//! let pace = Pace::new();
-//! let mut work = pin!(async { for _ in 0..5 { pace.pause().await } });
+//! let (pace, mut left) = (Pace::new(), 5);
+//! let mut work = pin!(in_slices(&pace, move || {
+//!     left -= 1;
+//!     if left > 0 { Poll::Pending } else { Poll::Ready(()) }
+//! }));
 //! assert!(go_on(work.as_mut(), &pace, 3).is_pending()); // three slices; then the watchdog, or other work
 //! assert_eq!(go_on(work.as_mut(), &pace, 3), Poll::Ready(()));
 //! ```
@@ -20,8 +23,8 @@
 
 use core::cell::Cell;
 use core::future::{Future, poll_fn};
-use core::pin::{Pin, pin};
-use core::task::{Context, Poll, Waker};
+use core::pin::Pin;
+use core::task::{Context, Poll, Waker, ready};
 
 /// How many slices of some work are left before it pauses.
 #[derive(Clone, Debug, Default)]
@@ -43,13 +46,8 @@ impl Pace {
         self.slices.set(slices);
     }
 
-    /// Takes a slice, or pauses until one is left. An executor is asked to come back: the work waits for nothing else.
-    pub fn pause(&self) -> impl Future<Output = ()> {
-        poll_fn(|context| self.take(context))
-    }
-
     /// A slice, where one is left.
-    pub(crate) fn take(&self, context: &mut Context<'_>) -> Poll<()> {
+    fn take(&self, context: &mut Context<'_>) -> Poll<()> {
         match self.slices.get().checked_sub(1) {
             Some(left) => {
                 self.slices.set(left);
@@ -70,11 +68,22 @@ pub fn go_on<F: Future + ?Sized>(work: Pin<&mut F>, pace: &Pace, slices: u32) ->
     work.poll(&mut Context::from_waker(Waker::noop()))
 }
 
-/// Does all of some work, whatever its pace.
-pub(crate) fn at_once<F: Future>(pace: &Pace, work: F) -> F::Output {
-    let mut work = pin!(work);
+/// Work of which `slice` does one slice, as a future that keeps to a pace; [`Poll::Ready`] is the last.
+pub fn in_slices<T>(pace: &Pace, mut slice: impl FnMut() -> Poll<T>) -> impl Future<Output = T> {
+    poll_fn(move |context| {
+        loop {
+            ready!(pace.take(context));
+            if let Poll::Ready(done) = slice() {
+                return Poll::Ready(done);
+            }
+        }
+    })
+}
+
+/// Does all of such work at once.
+pub(crate) fn to_the_end<T>(mut slice: impl FnMut() -> Poll<T>) -> T {
     loop {
-        if let Poll::Ready(done) = go_on(work.as_mut(), pace, u32::MAX) {
+        if let Poll::Ready(done) = slice() {
             return done;
         }
     }
@@ -82,19 +91,21 @@ pub(crate) fn at_once<F: Future>(pace: &Pace, work: F) -> F::Output {
 
 #[cfg(test)]
 mod tests {
+    use core::pin::pin;
+
     use super::*;
 
     #[test]
     fn work_goes_on_slice_by_slice() {
         let (pace, done) = (Pace::new(), Cell::new(0));
-        let work = async {
-            for number in 1..=5 {
-                pace.pause().await;
-                done.set(number);
+        let slice = || {
+            done.set(done.get() + 1);
+            match done.get() {
+                5 => Poll::Ready("done"),
+                _ => Poll::Pending,
             }
-            "done"
         };
-        let mut pinned = pin!(work);
+        let mut pinned = pin!(in_slices(&pace, slice));
         assert!(go_on(pinned.as_mut(), &pace, 0).is_pending());
         assert_eq!(done.get(), 0);
         assert!(go_on(pinned.as_mut(), &pace, 3).is_pending());
@@ -103,7 +114,8 @@ mod tests {
         assert!(go_on(pinned.as_mut(), &pace, 1).is_pending());
         assert_eq!(done.get(), 4);
         assert_eq!(go_on(pinned.as_mut(), &pace, 9), Poll::Ready("done"));
-        at_once(&pace, async { pace.pause().await });
+        done.set(0);
+        assert_eq!((to_the_end(slice), done.get()), ("done", 5));
     }
 
     #[test]
@@ -124,11 +136,14 @@ mod tests {
         let (pace, woken) = (Pace::new(), Arc::new(Woken::default()));
         let waker = Waker::from(Arc::clone(&woken));
         let mut context = Context::from_waker(&waker);
-        let mut work = pin!(async {
-            for _ in 0..3 {
-                pace.pause().await;
+        let mut left = 3;
+        let mut work = pin!(in_slices(&pace, || {
+            left -= 1;
+            match left {
+                0 => Poll::Ready(()),
+                _ => Poll::Pending,
             }
-        });
+        }));
         let mut polls = 0;
         loop {
             pace.allow(1);

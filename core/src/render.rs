@@ -3,6 +3,7 @@
 mod draw;
 mod facing;
 mod project;
+mod reach;
 mod whole;
 mod winding;
 

@@ -21,22 +21,20 @@ impl<'m> Block<'m> {
     }
 
     /// The next units, as they are.
-    pub(crate) fn units(&mut self, count: usize) -> Option<&'m mut [MaybeUninit<Unit>]> {
+    fn units(&mut self, count: usize) -> Option<&'m mut [MaybeUninit<Unit>]> {
         let (own, rest) = core::mem::take(&mut self.rest).split_at_mut_checked(count)?;
         self.rest = rest;
         Some(own)
     }
 
     /// A value; it is never dropped.
-    pub(crate) fn put<T>(&mut self, value: T) -> Option<&'m mut T> {
+    pub(crate) fn put<T>(&mut self, make: fn() -> T) -> Option<&'m mut T> {
         const { assert!(align_of::<T>() <= align_of::<Unit>()) };
-        let place = self.units(units_for::<T>(1)?)?.as_mut_ptr().cast::<T>();
+        let place = self.units(units_for::<T>(1)?)?.as_mut_ptr();
         // SAFETY: there is room for it by `units_for`, at a place that suits it by the assertion; nothing else reaches the units,
         // which were split off for as long as 'm lasts.
-        unsafe {
-            place.write(value);
-            Some(&mut *place)
-        }
+        let place = unsafe { &mut *place.cast::<MaybeUninit<T>>() };
+        Some(made(place, make))
     }
 
     /// A list of `count` values, all of them `fill`; `None` where there is too little left.
@@ -50,6 +48,12 @@ impl<'m> Block<'m> {
         // SAFETY: all `count` values were written; nothing else reaches the units, which were split off for as long as 'm lasts.
         Some(unsafe { slice::from_raw_parts_mut(first, count) })
     }
+}
+
+/// Makes a value where it stays: by itself, so that the compiler need not make it on the stack and move it.
+#[inline(never)]
+fn made<T>(place: &mut MaybeUninit<T>, make: fn() -> T) -> &mut T {
+    place.write(make())
 }
 
 /// How many units hold `count` values.

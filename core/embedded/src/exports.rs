@@ -19,17 +19,16 @@ use fluoropose::camera::CameraError;
 use fluoropose::implant::ImplantFile;
 use fluoropose::{Camera, Point};
 
-use crate::block::{Unit, units_for};
+use crate::block::{Block, Unit, units_for};
 use crate::failure::{Failure, Status};
 use crate::layouts::{CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundNumbers, Room};
-use crate::session::Session;
-use crate::task::{Task, task_units};
+use crate::session::{Session, units_needed};
 
 /// `fluoropose`: what begins a session's memory.
 pub struct Opened {
     /// That these bytes are a session.
     mark: u32,
-    task: Task,
+    session: Session<'static>,
     /// Why the last call failed.
     failure: Option<Failure>,
 }
@@ -81,7 +80,7 @@ unsafe fn opened<'a>(finder: *mut Opened) -> Option<&'a mut Opened> {
 impl Opened {
     /// Looks with another camera, where it is one.
     fn look_with(&mut self, camera: Result<Camera, CameraError>) -> Status {
-        let set = camera.map(|camera| self.task.session().set_camera(camera));
+        let set = camera.map(|camera| self.session.set_camera(camera));
         self.keep(set.map_err(Failure::from))
     }
 
@@ -121,7 +120,7 @@ pub unsafe extern "C" fn fluoropose_bytes_needed(
     // SAFETY: the caller's promise.
     let (file, room) = unsafe { (implant(implant_file, implant_bytes, 1), list(room, 1)) };
     let units = file.ok().zip(room.and_then(<[Room]>::first));
-    let units = units.and_then(|(file, room)| task_units(&file, room));
+    let units = units.and_then(|(file, room)| units_needed(&file, room));
     let own = units_for::<Opened>(1).unwrap_or_default();
     let units = units.and_then(|units| units.checked_add(own));
     units
@@ -168,18 +167,18 @@ pub unsafe extern "C" fn fluoropose_open(
     let Some((own, rest)) = units.split_at_mut_checked(own) else {
         return Status::Memory;
     };
-    let task = match Task::new(file, room, rest) {
-        Ok(task) => task,
+    let session = match Session::new(file, room, Block::new(rest)) {
+        Ok(session) => session,
         Err(failure) => return failure.status(),
     };
     let place = own.as_mut_ptr().cast::<Opened>();
     const { assert!(align_of::<Opened>() <= align_of::<Unit>()) };
     // SAFETY: `own` has room for it by `units_for`, at a place that suits it by the assertion above, and `rest`, which the
-    // task borrows, is apart from it.
+    // session borrows, is apart from it.
     unsafe {
         place.write(Opened {
             mark: MARK,
-            task,
+            session,
             failure: None,
         });
         put(finder, place)
@@ -199,11 +198,8 @@ pub unsafe extern "C" fn fluoropose_camera_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.task.idle() {
-        // SAFETY: the caller's promise.
-        Some(session) => unsafe { put(camera, session.camera().into()) },
-        None => opened.keep(Err(Failure::Order)),
-    }
+    // SAFETY: the caller's promise.
+    unsafe { put(camera, opened.session.camera().into()) }
 }
 
 /// Looks at frames of another camera from now on.
@@ -253,7 +249,7 @@ pub unsafe extern "C" fn fluoropose_outline(
     let (Some(opened), Some(points)) = (unsafe { (opened(finder), list(points, count)) }) else {
         return Status::Pointer;
     };
-    let taken = opened.task.session().outline(points);
+    let taken = opened.session.outline(points);
     opened.keep(taken)
 }
 
@@ -267,7 +263,7 @@ pub unsafe extern "C" fn fluoropose_begin_rows(finder: *mut Opened) -> Status {
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    let begun = opened.task.session().begin_rows();
+    let begun = opened.session.begin_rows();
     opened.keep(begun)
 }
 
@@ -287,7 +283,7 @@ pub unsafe extern "C" fn fluoropose_row(
         return Status::Pointer;
     };
     let inside = pixels.iter().map(|&pixel| pixel != 0);
-    let added = opened.task.session().row(row as usize, inside);
+    let added = opened.session.row(row as usize, inside);
     opened.keep(added)
 }
 
@@ -316,7 +312,7 @@ pub unsafe extern "C" fn fluoropose_go_on(finder: *mut Opened, slices: u32) -> S
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.task.go_on(slices) {
+    match opened.session.go_on(slices) {
         Poll::Ready(found) => opened.keep(found),
         Poll::Pending => Status::More,
     }
@@ -335,8 +331,7 @@ pub unsafe extern "C" fn fluoropose_found_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    let session = opened.task.idle().ok_or(Failure::Order);
-    match session.and_then(Session::decision) {
+    match opened.session.decision() {
         // SAFETY: the caller's promise.
         Ok((numbers, _)) => unsafe { put(found, numbers) },
         Err(failure) => opened.keep(Err(failure)),
@@ -357,8 +352,7 @@ pub unsafe extern "C" fn fluoropose_candidate_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    let session = opened.task.idle().ok_or(Failure::Order);
-    match session.and_then(|session| session.candidate(number as usize)) {
+    match opened.session.candidate(number as usize) {
         // SAFETY: the caller's promise.
         Ok(numbers) => unsafe { put(candidate, numbers) },
         Err(failure) => opened.keep(Err(failure)),
@@ -387,8 +381,7 @@ pub unsafe extern "C" fn fluoropose_sentence(
         needed: 0,
     };
     // Writing into it does not fail.
-    let session = opened.task.idle().ok_or(Failure::Order);
-    let _ = match (&opened.failure, session.and_then(Session::decision)) {
+    let _ = match (&opened.failure, opened.session.decision()) {
         (Some(failure), _) => write!(out, "{failure}"),
         (None, Ok((_, decision))) => write!(out, "{}", decision.verdict),
         (None, Err(failure)) => write!(out, "{failure}"),

@@ -13,7 +13,6 @@ pub mod exports;
 mod failure;
 mod layouts;
 mod session;
-mod task;
 
 pub use failure::{Failure, Status};
 pub use layouts::{

@@ -1,14 +1,15 @@
 //! An implant that is looked for, frame after frame, in memory that was borrowed once.
 
+use core::task::Poll;
+
 use fluoropose::film::LineMemory;
 use fluoropose::finder::choice::ChoiceContext;
-use fluoropose::finder::{Decision, Wanted, find_paced};
+use fluoropose::finder::{Decision, FrameSearch, Wanted};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::{MaskError, Word};
 use fluoropose::image::runs::{PixelRun, RunBuilder};
 use fluoropose::implant::{ArenaNeeds, ImplantFile};
 use fluoropose::locate::partial::PartialMemory;
-use fluoropose::pace::Pace;
 use fluoropose::refine::BorderPixel;
 use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
@@ -29,7 +30,10 @@ pub struct Session<'m> {
     words: &'m mut [Word],
     runs: RunBuilder<'m>,
     seen: Seen,
-    found: Found,
+    search: &'m mut FrameSearch,
+    /// Whether it was begun and has not ended.
+    searches: bool,
+    found: &'m mut Found,
     decision: Option<Decision>,
 }
 
@@ -60,6 +64,8 @@ pub(crate) fn units_needed(implant: &ImplantFile<'_>, room: &Room) -> Option<usi
         units_for::<u16>(needs.places)?,
         units_for::<BorderPixel>(room.border as usize)?,
         units_for::<PixelRun>(room.runs as usize)?,
+        units_for::<FrameSearch>(1)?,
+        units_for::<Found>(1)?,
     ]
     .into_iter()
     .try_fold(0usize, usize::checked_add)
@@ -88,6 +94,8 @@ impl<'m> Session<'m> {
         let runs = block.take(room.runs as usize, PixelRun::EMPTY);
         let words = block.take(needs.words, 0);
         let memory = finder_memory(&mut block, &needs, room);
+        // Both are long: where they stand they stay.
+        let (search, found) = (block.put(FrameSearch::new), block.put(|| Found::NOTHING));
         Ok(Self {
             runs: RunBuilder::new(
                 runs.ok_or(Failure::Memory)?,
@@ -99,7 +107,9 @@ impl<'m> Session<'m> {
             implant,
             camera,
             seen: Seen::Nothing,
-            found: Found::NOTHING,
+            search: search.ok_or(Failure::Memory)?,
+            searches: false,
+            found: found.ok_or(Failure::Memory)?,
             decision: None,
         })
     }
@@ -117,6 +127,7 @@ impl<'m> Session<'m> {
     }
 
     fn forget(&mut self) {
+        self.searches = false;
         self.seen = Seen::Nothing;
         self.decision = None;
     }
@@ -160,6 +171,8 @@ impl<'m> Session<'m> {
         row: usize,
         pixels: impl IntoIterator<Item = bool>,
     ) -> Result<(), Failure> {
+        // A search is given up, as by all that is said of a frame.
+        self.searches = false;
         if !matches!(self.seen, Seen::Rows) {
             return Err(Failure::Order);
         }
@@ -170,19 +183,29 @@ impl<'m> Session<'m> {
         Ok(added?)
     }
 
-    /// Finds the poses that explain the silhouette, chooses among them and judges the choice; in slices.
+    /// Finds the poses that explain the silhouette, chooses among them and judges the choice: so many slices of it, which begin
+    /// the search where it was not begun.
     ///
     /// # Errors
-    /// [`Failure`].
-    pub async fn find(&mut self, pace: &Pace) -> Result<(), Failure> {
-        self.decision = None;
+    /// [`Failure`]; the search has ended then.
+    pub fn go_on(&mut self, slices: u32) -> Poll<Result<(), Failure>> {
+        if !self.searches {
+            self.search.restart();
+            (self.searches, self.decision) = (true, None);
+        }
+        let done = self.search_on(slices);
+        self.searches = done.is_pending();
+        done
+    }
+
+    fn search_on(&mut self, slices: u32) -> Poll<Result<(), Failure>> {
         let crop = self.part()?;
         let words = self.words.get(..crop.words_needed()).unwrap_or_default();
         let mask = Mask::new(words, crop.width(), crop.height())?;
         let silhouette = Silhouette::from(&mask).in_crop(&crop)?;
         let camera = self.camera.cropped(&crop)?;
         let component = self.implant.component();
-        let (memory, found) = (&mut self.memory, &mut self.found);
+        let (memory, found) = (&mut self.memory, &mut *self.found);
         let wanted = Wanted {
             component: &component,
             camera: &camera,
@@ -190,9 +213,13 @@ impl<'m> Session<'m> {
             goal: Goal::Outline,
             options: RefineOptions::default(),
         };
-        find_paced(&wanted, memory, found, pace).await?;
-        self.decision = found.decide(&ChoiceContext::default());
-        Ok(())
+        for _ in 0..slices {
+            if let Poll::Ready(done) = self.search.go_on(&wanted, memory, found) {
+                self.decision = done.map(|()| found.decide(&ChoiceContext::default()))?;
+                return Poll::Ready(Ok(()));
+            }
+        }
+        Poll::Pending
     }
 
     /// The part of the frame with the silhouette, whose pixels are in memory then.

@@ -9,7 +9,7 @@ use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
 use super::nearby::about;
-use super::rivals::SAME_DEG;
+use super::rounds::SAME_DEG;
 use crate::camera::Camera;
 use crate::math::{radians, scale};
 use crate::mesh::Model;

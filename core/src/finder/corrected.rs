@@ -4,12 +4,12 @@ use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
 use super::mirrored::add_mirror_images;
-use super::rivals::{RefinedRival, SAME_DEG, refine_rivals};
+use super::rivals::{RefinedRival, refine_rivals};
+use super::rounds::SAME_DEG;
 use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Target, assess, correct,
@@ -46,60 +46,36 @@ pub fn onto_target<'t>(
     // Their mirror images are among them.
     let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
     let mut candidates = Vec::new();
-    let located = |found: &RefinedRival| outline.get(found.start)?.located;
-    let pace = Pace::new();
-    let all = add_assessed(
-        model,
-        &view,
-        &refined,
-        located,
-        memory,
-        &mut candidates,
-        &pace,
-    );
-    at_once(&pace, all)?;
+    for found in &refined {
+        // Each was refined from one of them.
+        let located = outline.get(found.start).and_then(|from| from.located);
+        add_assessed(model, &view, (found, located), memory, &mut candidates)?;
+    }
     Ok(candidates)
 }
 
-/// Adds refined poses with what led to them, how sure they are and how well they fit, each pose once.
-pub(super) async fn add_assessed(
-    model: &Model<'_>,
-    view: &CameraView<'_>,
-    refined: &[RefinedRival],
-    located: impl Fn(&RefinedRival) -> Option<Reranked>,
-    memory: &mut RefineMemory<'_>,
-    candidates: &mut Vec<Candidate, CANDIDATES>,
-    pace: &Pace,
-) -> Result<(), RefineError> {
-    for found in refined.iter().take(CANDIDATES) {
-        let same = |other: &Candidate| {
-            let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
-            turn < SAME_DEG
-        };
-        // Each was refined from one of them.
-        let Some(located) = located(found).filter(|_| !candidates.iter().any(same)) else {
-            continue;
-        };
-        pace.pause().await;
-        add_one(model, view, (found, located), memory, candidates)?;
-    }
-    Ok(())
-}
-
-/// Adds a refined pose. By itself, so that candidates take no place on the stack while poses are refined.
+/// Adds a refined pose with what led to it, how sure it is and how well it fits, unless it is there already. By itself, so that
+/// candidates take no place on the stack while poses are refined.
 #[inline(never)]
-fn add_one(
+pub(super) fn add_assessed(
     model: &Model<'_>,
     view: &CameraView<'_>,
-    (found, located): (&RefinedRival, Reranked),
+    (found, located): (&RefinedRival, Option<Reranked>),
     memory: &mut RefineMemory<'_>,
     candidates: &mut Vec<Candidate, CANDIDATES>,
 ) -> Result<(), RefineError> {
+    let same = |other: &Candidate| {
+        let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
+        turn < SAME_DEG
+    };
+    if located.is_none() || candidates.iter().any(same) {
+        return Ok(());
+    }
     let assessment = assess(model, &[*view], &found.refined, memory)?;
     let candidate = Candidate {
         pose: found.refined.pose,
         start: found.from,
-        located: Some(located),
+        located,
         refined: Some(found.refined),
         covariance: assessment.covariance,
         fit: assessment.fit,

@@ -1,5 +1,8 @@
 //! From what a camera saw to the poses that explain it.
 
+use core::future::Future;
+use core::task::{Poll, ready};
+
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
@@ -7,17 +10,17 @@ use super::choice::{ChoiceContext, choose};
 use super::component::Component;
 use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
-use super::first::{FirstPoses, add_of_pieces, first_poses_paced};
+use super::first::{FirstPoses, FirstSearch, add_of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, RivalRefinement, STARTS, worth_refining};
+use super::rivals::{Rivals, worth_refining};
+use super::rounds::Subject;
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
-use crate::pace::{Pace, at_once};
-use crate::pose::Pose;
+use crate::pace::{Pace, in_slices, to_the_end};
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
-use crate::shortlist::{first_of, keep};
+use crate::shortlist::keep;
 
 /// How far poses are brought.
 #[derive(Clone, Copy, Debug)]
@@ -99,8 +102,8 @@ pub fn find_into(
         goal,
         options,
     };
-    let pace = Pace::new();
-    at_once(&pace, find_paced(&wanted, memory, found, &pace))
+    let mut search = FrameSearch::new();
+    to_the_end(|| search.go_on(&wanted, memory, found))
 }
 
 /// What is to be found in a frame, and how far its poses are brought: what [`find`] is asked.
@@ -118,177 +121,243 @@ pub struct Wanted<'w> {
     pub options: RefineOptions,
 }
 
-/// The same as [`find_into`] in slices ([`crate::pace`]): the search of the library, then each drawing of the model. What is
-/// one slice as a whole is rare: poses of pieces of an outline, a closer look around a pose of an outline that fits in part
-/// only, and all that is done on a grey frame.
+/// The same as [`find_into`] as a future that keeps to a pace ([`crate::pace`]), in the slices of [`FrameSearch`].
 ///
 /// # Errors
 /// As [`find`]; what `found` holds then, or while work is left, means nothing.
-pub async fn find_paced(
+pub fn find_paced(
     wanted: &Wanted<'_>,
     memory: &mut FinderMemory<'_>,
     found: &mut Found,
     pace: &Pace,
-) -> Result<(), FindError> {
-    let Wanted {
-        component,
-        camera,
-        silhouette,
-        ..
-    } = *wanted;
-    if component.library.info().model != component.model.digest() {
-        return Err(FindError::OtherModel);
-    }
-    let candidates = &mut found.candidates;
-    candidates.clear();
-    let mut first = FirstPoses::NONE;
-    first_poses_paced(component, camera, silhouette, memory, pace, &mut first).await?;
-    (found.clipped, found.partial) = (first.clipped, first.partial);
-    let mut way = Way {
-        component,
-        camera,
-        silhouette,
-        options: wanted.options,
-        memory,
-        pace,
-    };
-    match wanted.goal {
-        Goal::Library => way.as_the_library_has_them(&mut first, candidates),
-        goal => {
-            way.on_outline(&mut first, candidates).await?;
-            match goal {
-                Goal::Image(image) => way.on_image(image, candidates),
-                _ => Ok(()),
-            }
-        }
-    }
+) -> impl Future<Output = Result<(), FindError>> {
+    let mut search = FrameSearch::new();
+    in_slices(pace, move || search.go_on(wanted, memory, found))
 }
 
-/// From first poses to candidates.
-struct Way<'w, 'm> {
-    component: &'w Component<'w>,
-    camera: &'w Camera,
-    silhouette: &'w Silhouette<'w>,
-    options: RefineOptions,
-    memory: &'w mut FinderMemory<'m>,
-    pace: &'w Pace,
+/// All that is done for [`find`] between two slices: the search of the library, then each drawing of the model. What is
+/// one slice as a whole is rare: poses of pieces of an outline, a closer look around a pose of an outline that fits in part
+/// only, and all that is done on a grey frame.
+pub struct FrameSearch {
+    first: FirstSearch,
+    rivals: Rivals,
+    at: At,
+    /// How many of the refined poses were assessed.
+    assessed: usize,
+}
+
+/// How far a search is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum At {
+    Start,
+    /// First poses are looked for.
+    First,
+    /// First poses are refined.
+    Refining,
+    /// Those of pieces are, which the first left open.
+    Again,
 }
 
 type Candidates = Vec<Candidate, CANDIDATES>;
 
-impl Way<'_, '_> {
-    #[inline(never)]
-    fn as_the_library_has_them(
-        &mut self,
-        first: &mut FirstPoses,
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
-        self.add_unrefined(&first.poses, candidates)?;
-        if !first.partial && !first.explain(self.silhouette) {
-            // A second opinion: where there is none, the first stands.
-            self.look_for_pieces(first);
-            self.add_unrefined(&first.poses, candidates)?;
-        }
-        Ok(())
+impl Default for FrameSearch {
+    fn default() -> Self {
+        Self::new()
     }
+}
 
-    fn add_unrefined(
-        &mut self,
-        poses: &[Reranked],
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
-        let view = CameraView::only(self.camera, *self.silhouette);
-        let (model, memory) = (self.component.model, &mut self.memory.refine);
-        let mut beyond = None;
-        for located in poses.iter().take(CANDIDATES) {
-            let pose = located.located.pose;
-            let fit = match fit_at(model, &[view], &pose, memory) {
-                Err(error @ RefineError::BeyondCrop) => {
-                    beyond = Some(error);
-                    continue;
-                }
-                fit => fit?,
-            };
-            let candidate = Candidate {
-                pose,
-                start: pose,
-                located: Some(*located),
-                refined: None,
-                covariance: None,
-                fit,
-            };
-            keep(candidates, candidate, Candidate::misfit);
-        }
-        match beyond.filter(|_| candidates.is_empty()) {
-            Some(error) => Err(error.into()),
-            None => Ok(()),
+impl FrameSearch {
+    /// Nothing is done yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            first: FirstSearch::new(),
+            rivals: Rivals::new(),
+            at: At::Start,
+            assessed: 0,
         }
     }
 
-    /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
-    /// that pieces of the outline lead to are refined too, in their place.
-    async fn on_outline(
+    /// As new: what was done is forgotten.
+    pub fn restart(&mut self) {
+        self.first.restart();
+        self.at = At::Start;
+    }
+
+    /// Does a slice; [`Poll::Ready`] is the last, and the one after it begins anew. What is wanted, and the memory with all that is
+    /// in it, must be those of the slice before.
+    ///
+    /// # Errors
+    /// As [`find`]; what `found` holds then, or while slices are left, means nothing.
+    pub fn go_on(
         &mut self,
-        first: &mut FirstPoses,
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
-        self.add_refined(worth_refining(&first.poses), candidates)
-            .await?;
-        let met = candidates.first().map_or(0.0, |best| best.fit.met);
-        if !first.partial && met < Limits::USUAL.good_met {
-            self.look_for_pieces(first);
-            // A second opinion that leads nowhere is none.
-            let worth = worth_refining(&first.poses);
-            let _ = self.add_refined(worth, candidates).await;
+        wanted: &Wanted<'_>,
+        memory: &mut FinderMemory<'_>,
+        found: &mut Found,
+    ) -> Poll<Result<(), FindError>> {
+        let done = self.slice(wanted, memory, found);
+        if done.is_ready() {
+            self.restart();
         }
-        Ok(())
+        done
     }
 
-    #[inline(never)]
-    fn on_image(
+    fn slice(
         &mut self,
-        image: ImageTarget<'_>,
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
-        let outline = candidates.clone();
-        let (model, camera, options) = (self.component.model, self.camera, self.options);
-        let memory = &mut self.memory.refine;
-        *candidates = onto_target(model, camera, image, &outline, options, memory)?;
-        Ok(())
+        wanted: &Wanted<'_>,
+        memory: &mut FinderMemory<'_>,
+        found: &mut Found,
+    ) -> Poll<Result<(), FindError>> {
+        let (candidates, component) = (&mut found.candidates, wanted.component);
+        if self.at == At::Start {
+            if component.library.info().model != component.model.digest() {
+                return Poll::Ready(Err(FindError::OtherModel));
+            }
+            self.at = At::First;
+        }
+        if self.at == At::First {
+            let (camera, silhouette) = (wanted.camera, wanted.silhouette);
+            ready!(self.first.go_on(component, camera, silhouette, memory))?;
+            candidates.clear();
+            let first = &self.first.first;
+            (found.clipped, found.partial) = (first.clipped, first.partial);
+            if let Goal::Library = wanted.goal {
+                let first = &mut self.first.first;
+                return Poll::Ready(as_the_library_has_them(wanted, first, memory, candidates));
+            }
+            self.refine(At::Refining, wanted);
+        }
+        let refined = ready!(self.go_on_refining(wanted, memory, candidates));
+        let first = &mut self.first.first;
+        if self.at == At::Refining {
+            refined?;
+            let met = candidates.first().map_or(0.0, |best| best.fit.met);
+            if !first.partial && met < Limits::USUAL.good_met {
+                // Something may hide a part of the outline, and nobody said so.
+                look_for_pieces(wanted, memory, first);
+                self.refine(At::Again, wanted);
+                return Poll::Pending;
+            }
+        }
+        // A second opinion that leads nowhere is none.
+        Poll::Ready(match wanted.goal {
+            Goal::Image(image) => on_image(wanted, image, memory, candidates),
+            _ => Ok(()),
+        })
     }
 
-    /// Poses that pieces of the outline lead to in the place of the first ones; none where they lead to none.
-    fn look_for_pieces(&mut self, first: &mut FirstPoses) {
-        let (camera, silhouette) = (self.camera, self.silhouette);
-        // What was there is cleared in any case.
-        let _ = add_of_pieces(self.component, camera, silhouette, self.memory, first);
-    }
-
-    async fn add_refined(
-        &mut self,
-        worth: &[Reranked],
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
+    /// Refines what is worth it of the first poses.
+    fn refine(&mut self, at: At, wanted: &Wanted<'_>) {
+        (self.at, self.assessed) = (at, 0);
+        let worth = worth_refining(&self.first.first.poses);
         let starts = worth.iter().map(|rival| rival.located.pose);
-        let starts: Vec<Pose, STARTS> = first_of(starts);
-        let view = CameraView::only(self.camera, *self.silhouette);
-        let Component { model, planes, .. } = *self.component;
-        let memory = &mut self.memory.refine;
-        let mut refined = Vec::new();
-        let mut rivals = RivalRefinement {
-            model,
-            views: &[view],
-            planes,
-            options: self.options,
-            memory,
-            pace: self.pace,
-            answers: &mut refined,
-        };
-        rivals.run(&starts).await?;
-        let located = |found: &RefinedRival| worth.get(found.start).copied();
-        let assessed = add_assessed(
-            model, &view, &refined, located, memory, candidates, self.pace,
-        );
-        Ok(assessed.await?)
+        let view = [wanted.view()];
+        self.rivals.begin(starts, &wanted.subject(&view));
     }
+
+    /// Draws once, to refine a pose, or to say of a refined one how certain it is.
+    fn go_on_refining(
+        &mut self,
+        wanted: &Wanted<'_>,
+        memory: &mut FinderMemory<'_>,
+        candidates: &mut Candidates,
+    ) -> Poll<Result<(), RefineError>> {
+        let (view, memory) = ([wanted.view()], &mut memory.refine);
+        ready!(self.rivals.go_on(&wanted.subject(&view), memory))?;
+        let answers = self.rivals.answers().iter().take(CANDIDATES);
+        let mut left = answers.skip(self.assessed);
+        let Some(refined) = left.next() else {
+            return Poll::Ready(Ok(()));
+        };
+        self.assessed += 1;
+        let located = self.first.first.poses.get(refined.start).copied();
+        let model = wanted.component.model;
+        add_assessed(model, &view[0], (refined, located), memory, candidates)?;
+        Poll::Pending
+    }
+}
+
+impl<'w> Wanted<'w> {
+    fn view(&self) -> CameraView<'w> {
+        CameraView::only(self.camera, *self.silhouette)
+    }
+
+    fn subject<'s>(&'s self, view: &'s [CameraView<'s>]) -> Subject<'s> {
+        Subject {
+            model: self.component.model,
+            views: view,
+            planes: self.component.planes,
+            options: self.options,
+        }
+    }
+}
+
+#[inline(never)]
+fn as_the_library_has_them(
+    wanted: &Wanted<'_>,
+    first: &mut FirstPoses,
+    memory: &mut FinderMemory<'_>,
+    candidates: &mut Candidates,
+) -> Result<(), FindError> {
+    add_unrefined(wanted, &first.poses, memory, candidates)?;
+    if !first.partial && !first.explain(wanted.silhouette) {
+        // A second opinion: where there is none, the first stands.
+        look_for_pieces(wanted, memory, first);
+        add_unrefined(wanted, &first.poses, memory, candidates)?;
+    }
+    Ok(())
+}
+
+fn add_unrefined(
+    wanted: &Wanted<'_>,
+    poses: &[Reranked],
+    memory: &mut FinderMemory<'_>,
+    candidates: &mut Candidates,
+) -> Result<(), FindError> {
+    let (model, view) = (wanted.component.model, wanted.view());
+    let mut beyond = None;
+    for located in poses.iter().take(CANDIDATES) {
+        let pose = located.located.pose;
+        let fit = match fit_at(model, &[view], &pose, &mut memory.refine) {
+            Err(error @ RefineError::BeyondCrop) => {
+                beyond = Some(error);
+                continue;
+            }
+            fit => fit?,
+        };
+        let candidate = Candidate {
+            pose,
+            start: pose,
+            located: Some(*located),
+            refined: None,
+            covariance: None,
+            fit,
+        };
+        keep(candidates, candidate, Candidate::misfit);
+    }
+    match beyond.filter(|_| candidates.is_empty()) {
+        Some(error) => Err(error.into()),
+        None => Ok(()),
+    }
+}
+
+#[inline(never)]
+fn on_image(
+    wanted: &Wanted<'_>,
+    image: ImageTarget<'_>,
+    memory: &mut FinderMemory<'_>,
+    candidates: &mut Candidates,
+) -> Result<(), FindError> {
+    let outline = candidates.clone();
+    let (model, camera, options) = (wanted.component.model, wanted.camera, wanted.options);
+    let memory = &mut memory.refine;
+    *candidates = onto_target(model, camera, image, &outline, options, memory)?;
+    Ok(())
+}
+
+/// Poses that pieces of the outline lead to in the place of the first ones; none where they lead to none.
+fn look_for_pieces(wanted: &Wanted<'_>, memory: &mut FinderMemory<'_>, first: &mut FirstPoses) {
+    let (camera, silhouette) = (wanted.camera, wanted.silhouette);
+    // What was there is cleared in any case.
+    let _ = add_of_pieces(wanted.component, camera, silhouette, memory, first);
 }

@@ -1,5 +1,7 @@
 //! First poses of a silhouette: of the whole outline, and of pieces of it where something hides a part.
 
+use core::task::Poll;
+
 use heapless::Vec;
 
 use super::component::Component;
@@ -9,9 +11,10 @@ use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
 use crate::locate::partial::{PartialError, known_fraction, locate_partial};
-use crate::locate::rerank::{Reranked, rerank_paced};
-use crate::locate::{LocatedPoses, locate};
-use crate::pace::{Pace, at_once};
+use crate::locate::rerank::{Reranked, add_drawn};
+use crate::locate::{Located, LocatedPoses, locate};
+use crate::pace::to_the_end;
+use crate::render::RenderError;
 
 /// First poses that are kept of one silhouette.
 pub const FIRST_POSES: usize = 12;
@@ -45,84 +48,109 @@ pub fn first_poses(
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
 ) -> Result<FirstPoses, FindError> {
-    let (mut first, pace) = (FirstPoses::NONE, Pace::new());
-    let work = first_poses_paced(component, camera, silhouette, memory, &pace, &mut first);
-    at_once(&pace, work)?;
-    Ok(first)
+    let mut search = FirstSearch::new();
+    to_the_end(|| search.go_on(component, camera, silhouette, memory))?;
+    Ok(search.first)
 }
 
-/// The same in slices, the search of the library and then one for each drawing, into what was [`FirstPoses::NONE`]: to move so
-/// many poses takes kilobytes of stack.
-pub(super) async fn first_poses_paced(
-    component: &Component<'_>,
-    camera: &Camera,
-    silhouette: &Silhouette<'_>,
-    memory: &mut FinderMemory<'_>,
-    pace: &Pace,
-    first: &mut FirstPoses,
-) -> Result<(), FindError> {
-    pace.pause().await;
-    if known_fraction(silhouette).is_partial() {
-        first.partial = true;
-        return add_of_pieces(component, camera, silhouette, memory, first);
+/// The search of [`first_poses`] between two slices: the library, and then a drawing each.
+pub(super) struct FirstSearch {
+    pub(super) first: FirstPoses,
+    /// Poses of the library.
+    located: Vec<Located, FIRST_POSES>,
+    /// How many of them were drawn; `None` before it was searched.
+    drawn: Option<usize>,
+    undrawable: Option<RenderError>,
+}
+
+impl FirstSearch {
+    /// Nothing yet.
+    pub(super) fn new() -> Self {
+        Self {
+            first: FirstPoses {
+                poses: Vec::new(),
+                clipped: false,
+                partial: false,
+            },
+            located: Vec::new(),
+            drawn: None,
+            undrawable: None,
+        }
     }
-    of_whole(component, camera, silhouette, memory, pace, first).await?;
-    match first.poses.is_empty() {
-        true => Err(FindError::NoView),
-        false => Ok(()),
+
+    /// As new.
+    pub(super) fn restart(&mut self) {
+        self.first.poses.clear();
+        (self.first.clipped, self.first.partial) = (false, false);
+        (self.drawn, self.undrawable) = (None, None);
+    }
+
+    /// Does a slice.
+    pub(super) fn go_on(
+        &mut self,
+        component: &Component<'_>,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+        memory: &mut FinderMemory<'_>,
+    ) -> Poll<Result<(), FindError>> {
+        let first = &mut self.first;
+        let Some(drawn) = &mut self.drawn else {
+            if known_fraction(silhouette).is_partial() {
+                first.partial = true;
+                return Poll::Ready(add_of_pieces(component, camera, silhouette, memory, first));
+            }
+            self.search_library(component, camera, silhouette, memory)?;
+            self.drawn = Some(0);
+            return Poll::Pending;
+        };
+        if let Some(located) = self.located.get(*drawn) {
+            *drawn += 1;
+            let size = [camera.width(), camera.height()];
+            let words = words_needed(size[0], size[1]);
+            let words = memory.refine.drawn.get_mut(..words).unwrap_or_default();
+            let mut drawn = MaskMut::new(words, size[0], size[1])?;
+            let memory = (&mut *memory.refine.projected, &mut drawn);
+            let seen = (camera, silhouette);
+            let error = add_drawn(located, component.model, seen, memory, &mut first.poses)?;
+            self.undrawable = error.or(self.undrawable);
+            return Poll::Pending;
+        }
+        Poll::Ready(match (first.poses.is_empty(), self.undrawable) {
+            (false, _) => Ok(()),
+            (true, Some(error)) => Err(error.into()),
+            (true, None) => Err(FindError::NoView),
+        })
+    }
+    /// By itself, because it leaves only its answer on the stack.
+    #[inline(never)]
+    fn search_library(
+        &mut self,
+        component: &Component<'_>,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+        memory: &mut FinderMemory<'_>,
+    ) -> Result<(), FindError> {
+        let mut work = memory.workspace.reborrow();
+        if work.bytes.is_empty() {
+            // Nothing is drawn yet.
+            work = work.with_words(memory.refine.drawn);
+        }
+        let found: LocatedPoses<FIRST_POSES> =
+            locate(silhouette.mask(), camera, component.library, work)?;
+        self.first.clipped = found.form.clipped;
+        self.located = found.poses;
+        self.located.truncate(kept(component));
+        Ok(())
     }
 }
 
 impl FirstPoses {
-    /// None yet.
-    pub(super) const NONE: Self = Self {
-        poses: Vec::new(),
-        clipped: false,
-        partial: false,
-    };
-
     /// Whether the best of them leaves so little unmatched that nothing seems to be hidden.
     pub(super) fn explain(&self, silhouette: &Silhouette<'_>) -> bool {
         let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
         let best = self.poses.first();
         best.is_some_and(|best| best.unmatched as f64 <= limit)
     }
-}
-
-async fn of_whole(
-    component: &Component<'_>,
-    camera: &Camera,
-    silhouette: &Silhouette<'_>,
-    memory: &mut FinderMemory<'_>,
-    pace: &Pace,
-    first: &mut FirstPoses,
-) -> Result<(), FindError> {
-    let found = in_library(component, camera, silhouette, memory)?;
-    first.clipped = found.form.clipped;
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.refine.drawn.get_mut(..words_needed(width, height));
-    let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    let scratch = &mut *memory.refine.projected;
-    let poses = found.poses.get(..kept(component)).unwrap_or(&found.poses);
-    let (seen, memory) = ((camera, silhouette), (scratch, &mut drawn));
-    rerank_paced(poses, component.model, seen, memory, pace, &mut first.poses).await?;
-    Ok(())
-}
-
-/// The search of the library. By itself, because it leaves only its answer on the stack.
-#[inline(never)]
-fn in_library(
-    component: &Component<'_>,
-    camera: &Camera,
-    silhouette: &Silhouette<'_>,
-    memory: &mut FinderMemory<'_>,
-) -> Result<LocatedPoses<FIRST_POSES>, FindError> {
-    let mut work = memory.workspace.reborrow();
-    if work.bytes.is_empty() {
-        // Nothing is drawn yet.
-        work = work.with_words(memory.refine.drawn);
-    }
-    Ok(locate(silhouette.mask(), camera, component.library, work)?)
 }
 
 /// Adds poses that pieces of the outline lead to, for a silhouette of which something may hide a part that nobody marked, in the

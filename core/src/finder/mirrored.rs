@@ -6,7 +6,7 @@
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
-use super::rivals::SAME_DEG;
+use super::rounds::SAME_DEG;
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;

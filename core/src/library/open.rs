@@ -111,8 +111,8 @@ impl<'a> Library<'a> {
 
     /// A plain body that is right by construction: of the length that `info` gives.
     pub(super) fn plain(info: LibraryInfo, body: &'a [u8]) -> Self {
-        let length = (info.grid.views() * RECORD_BYTES).min(body.len());
-        let (records, bits) = body.split_at(length);
+        let length = info.grid.views() * RECORD_BYTES;
+        let (records, bits) = body.split_at_checked(length).unwrap_or((body, &[]));
         Self {
             info,
             views: Views::Plain { records, bits },

@@ -10,7 +10,6 @@ use crate::image::mask::MaskMut;
 use crate::image::silhouette::Silhouette;
 use crate::locate::whole::Located;
 use crate::mesh::Model;
-use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 use crate::render::{Projected, RenderError, render};
 use crate::shortlist::keep;
@@ -58,36 +57,39 @@ pub fn rerank<const K: usize>(
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
-    let (mut reranked, pace) = (Vec::new(), Pace::new());
-    let seen = (camera, silhouette);
-    let work = rerank_paced(poses, model, seen, (scratch, drawn), &pace, &mut reranked);
-    at_once(&pace, work)?;
-    Ok(reranked)
-}
-
-/// The same in slices, a drawing each, into a list that was empty.
-pub(crate) async fn rerank_paced<const K: usize>(
-    poses: &[Located],
-    model: &Model<'_>,
-    (camera, silhouette): (&Camera, &Silhouette<'_>),
-    (scratch, drawn): (&mut [Projected], &mut MaskMut<'_>),
-    pace: &Pace,
-    reranked: &mut Vec<Reranked, K>,
-) -> Result<(), RenderError> {
+    let mut reranked = Vec::new();
     let mut undrawable = None;
-    for &located in poses.iter().take(K) {
-        pace.pause().await;
-        match unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn) {
-            Ok(unmatched) => {
-                let own = Reranked { located, unmatched };
-                keep(reranked, own, |other| other.unmatched);
-            }
-            Err(error @ RenderError::BehindCamera(_)) => undrawable = Some(error),
-            Err(error) => return Err(error),
-        }
+    for located in poses.iter().take(K) {
+        let (seen, memory) = ((camera, silhouette), (&mut *scratch, &mut *drawn));
+        let error = add_drawn(located, model, seen, memory, &mut reranked)?;
+        undrawable = error.or(undrawable);
     }
     match undrawable.filter(|_| reranked.is_empty()) {
         Some(error) => Err(error),
-        None => Ok(()),
+        None => Ok(reranked),
+    }
+}
+
+/// The same of one pose; gives the error of one that cannot be drawn.
+///
+/// # Errors
+/// Those for which none can.
+pub(crate) fn add_drawn<const K: usize>(
+    located: &Located,
+    model: &Model<'_>,
+    (camera, silhouette): (&Camera, &Silhouette<'_>),
+    (scratch, drawn): (&mut [Projected], &mut MaskMut<'_>),
+    reranked: &mut Vec<Reranked, K>,
+) -> Result<Option<RenderError>, RenderError> {
+    let pose = &located.pose;
+    match unmatched_at_pose(model, camera, pose, silhouette, scratch, drawn) {
+        Ok(unmatched) => {
+            let located = *located;
+            let own = Reranked { located, unmatched };
+            keep(reranked, own, |other| other.unmatched);
+            Ok(None)
+        }
+        Err(error @ RenderError::BehindCamera(_)) => Ok(Some(error)),
+        Err(error) => Err(error),
     }
 }

@@ -1,8 +1,8 @@
 //! Rigid poses and their forms: matrix, Z-X-Y Euler angles, quaternion.
 
 use crate::math::{
-    IDENTITY, Matrix3, Vector3, add, apply, asin, atan2, degrees, determinant, multiply, radians,
-    scale, sin_cos, sqrt, transpose,
+    IDENTITY, Matrix3, Vector3, add, apply, asin, atan2, degrees, determinant, dot, multiply,
+    radians, scale, sin_cos, sqrt, transpose,
 };
 
 /// `X_camera = rotation * X_model + translation`; mm.
@@ -153,13 +153,12 @@ impl Pose {
     /// Whether the rotation is orthonormal and right-handed within `tolerance`, and all finite.
     #[must_use]
     pub fn is_rigid(&self, tolerance: f64) -> bool {
-        let product = multiply(&self.rotation, &transpose(&self.rotation));
-        let orthonormal = product
-            .iter()
-            .flatten()
-            .zip(IDENTITY.iter().flatten())
-            .all(|(a, b)| (a - b).abs() <= tolerance);
-        orthonormal
+        let [x, y, z] = &self.rotation;
+        let is = |a, b, product: f64| (dot(a, b) - product).abs() <= tolerance;
+        let unit = is(x, x, 1.0) && is(y, y, 1.0) && is(z, z, 1.0);
+        unit && is(x, y, 0.0)
+            && is(y, z, 0.0)
+            && is(z, x, 0.0)
             && determinant(&self.rotation) > 0.0
             && self.translation.iter().all(|value| value.is_finite())
     }

@@ -139,10 +139,9 @@ pub(super) fn observe(
     let mut sums = FitSums::default();
     for view in views {
         let stage = pass.stage(&view.target);
-        let (pose, offset) = (&refined.pose, refined.offset_px);
-        let count = problem.observe_view(view, pose, offset, &stage, memory)?;
+        let seen = view.placement.compose(&refined.pose);
+        let count = problem.observe_view(view, &seen, refined.offset_px, &stage, memory)?;
         let border = memory.border.get(..count).unwrap_or_default();
-        let seen = view.placement.compose(pose);
         each(Observed {
             view,
             motion: problem.motion(view, &seen),

@@ -8,6 +8,7 @@ use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::facing::FacingTest;
 use crate::render::project::{Images, Projected, RenderError, VERTICES, check_images};
+use crate::render::reach::Reach;
 use crate::render::winding;
 
 /// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
@@ -76,11 +77,12 @@ pub fn render(
     }
     let (slots, room) = parts(model, scratch)?;
     if let Some(edges) = model.edges() {
-        let facing = FacingTest::new(model.mesh(), camera, pose);
+        let reach = Reach::of(&model.bounds(), pose);
+        let facing = FacingTest::new(model.mesh(), camera, pose, &reach);
         if !facing.sees_all() {
             check_images(model.vertices(), camera, pose)?;
         }
-        let mut images = Images::new(model.mesh(), camera, pose, slots);
+        let mut images = Images::new(model.mesh(), camera, pose, slots).reaching(reach);
         if winding::fill(&facing, &edges, &mut images, room, out) {
             return Ok(());
         }

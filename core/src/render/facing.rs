@@ -16,11 +16,10 @@ use crate::mesh::edges::{
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::render::project::Images;
+use crate::render::reach::Reach;
 
 /// Part of a distance that rounding to 32 bits changes at most, with some to spare.
 const SINGLE: f32 = 4e-6;
-/// Poses are rigid but for this.
-const RIGID: f64 = 1e-9;
 
 /// A bit for each edge of a group.
 type Bits = u16;
@@ -43,16 +42,17 @@ pub(crate) struct FacingTest {
 }
 
 impl FacingTest {
-    pub(crate) fn new(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Self {
+    pub(crate) fn new(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose, reach: &Reach) -> Self {
         let Bounds { centre, radius } = mesh.bounds();
-        let middle = pose.transform(&centre);
-        let (near, far) = (-middle[2] - radius, -middle[2] + radius);
+        let Reach {
+            near,
+            far,
+            aside,
+            in_front,
+        } = *reach;
         let place = pose.inverse().translation;
         let ([fx, fy], principal) = (camera.focal(), camera.principal_point());
-        // Tangents of the angles off the axis.
-        let aside = [middle[0], middle[1]].map(|x| (x.abs() + radius) / near);
         let stretch: f64 = aside.iter().map(|tan| sqrt(1.0 + tan * tan)).sum();
-        let in_front = near > 0.0 && pose.is_rigid(RIGID);
         let farthest = |k: usize| camera.focal()[k] * aside[k] + principal[k].abs();
         // With a thousandth for what rounding before the last does.
         let scale = 1.001 * far * far * far / (fx * fy);
@@ -214,7 +214,7 @@ mod tests {
         let linked = Linked::new(mesh);
         let mut slots = vec![Projected::default(); mesh.vertices().len()];
         let mut images = Images::new(mesh, &camera, pose, &mut slots);
-        let facing = FacingTest::new(mesh, &camera, pose);
+        let facing = FacingTest::new(mesh, &camera, pose, &Reach::of(&mesh.bounds(), pose));
         let mut found = Vec::new();
         for (bounds, group) in linked.edges().groups() {
             facing.contour(bounds, group, &mut images, |ends| found.push(ends));

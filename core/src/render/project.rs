@@ -9,6 +9,7 @@ use crate::math::{Vector3, dot};
 use crate::memory::{TooLittleMemory, first};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
+use crate::render::reach::Reach;
 use crate::render::whole::{WORTH_IT, WholeImages};
 
 /// Why a model cannot be drawn.
@@ -40,6 +41,8 @@ pub(crate) struct Images<'i> {
     camera: &'i Camera,
     pose: &'i Pose,
     bounds: Bounds,
+    /// Where it is known already.
+    reach: Option<Reach>,
     /// Made where it is first wanted.
     whole: Option<Option<WholeImages>>,
     vertices: &'i [[f32; 3]],
@@ -63,6 +66,12 @@ impl<'i> Images<'i> {
         Self::left(mesh, camera, pose, memory)
     }
 
+    /// The same of a surface of which it is known how far it reaches.
+    pub(super) fn reaching(mut self, reach: Reach) -> Self {
+        self.reach = Some(reach);
+        self
+    }
+
     /// Images as they were left in memory, at the same pose.
     pub(crate) fn left(
         mesh: &Mesh<'i>,
@@ -80,6 +89,7 @@ impl<'i> Images<'i> {
             camera,
             pose,
             bounds: mesh.bounds(),
+            reach: None,
             whole: None,
             vertices,
             slots,
@@ -138,16 +148,18 @@ impl<'i> Images<'i> {
         let Some(place) = self.vertices.get(vertex) else {
             return FixedPoint::NONE;
         };
+        let (camera, pose, bounds) = (self.camera, self.pose, &self.bounds);
+        let make = || {
+            let reach = self.reach.unwrap_or_else(|| Reach::of(bounds, pose));
+            WholeImages::new(camera, pose, bounds, &reach)
+        };
         let whole = match WORTH_IT {
-            true => self
-                .whole
-                .get_or_insert_with(|| WholeImages::new(self.camera, self.pose, &self.bounds))
-                .as_ref(),
+            true => self.whole.get_or_insert_with(make).as_ref(),
             false => None,
         };
         whole
             .and_then(|whole| whole.of(place))
-            .unwrap_or_else(|| image_of(self.camera, self.pose, place).0)
+            .unwrap_or_else(|| image_of(camera, pose, place).0)
     }
 }
 

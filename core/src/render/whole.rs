@@ -5,6 +5,7 @@ use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, ONE, WHOLE};
 use crate::mesh::Bounds;
 use crate::pose::Pose;
+use crate::render::reach::Reach;
 
 /// Whether the processor reckons doubles by functions of hundreds of instructions each.
 pub(super) const WORTH_IT: bool = cfg!(any(target_arch = "arm", target_arch = "riscv32"));
@@ -47,19 +48,23 @@ pub(super) struct WholeImages {
 
 impl WholeImages {
     /// `None` where numbers are too large, or so few images certain that it is not worth it.
-    pub(super) fn new(camera: &Camera, pose: &Pose, bounds: &Bounds) -> Option<Self> {
+    pub(super) fn new(
+        camera: &Camera,
+        pose: &Pose,
+        bounds: &Bounds,
+        reach: &Reach,
+    ) -> Option<Self> {
         let Bounds { centre, radius } = bounds;
-        let middle = pose.transform(centre);
-        let (near, far) = (-middle[2] - radius, -middle[2] + radius);
+        let &Reach {
+            near, far, aside, ..
+        } = reach;
         let largest = centre.iter().fold(0.0, |most: f64, x| most.max(x.abs())) + radius;
-        let tangents = [middle[0], middle[1]].map(|x| (x.abs() + radius) / near);
-        let tangent = tangents[0].max(tangents[1]);
-        let is_possible = near > 0.0
+        let tangent = aside[0].max(aside[1]);
+        let is_possible = reach.in_front
             && far < FAR
             && far < ROOM * 2.0 * near
             && tangent < ASIDE
             && largest < FAR
-            && pose.is_rigid(RIGID)
             && pose.translation.iter().all(|x| x.abs() < FAR);
         if !is_possible {
             return None;
@@ -169,9 +174,6 @@ fn nearest(x: f64) -> i32 {
     (x + WHOLE).to_bits() as i32
 }
 
-/// Poses are rigid but for this.
-const RIGID: f64 = 1e-9;
-
 #[inline(always)]
 fn product(a: i32, b: i32) -> i64 {
     i64::from(a) * i64::from(b)
@@ -222,7 +224,7 @@ mod tests {
             let camera = Camera::new(512, 512, focal, principal).expect("valid");
             let vertex = vertex.map(|x| x * radius as f32 * 0.577);
             let bounds = Bounds { centre: [0.0; 3], radius };
-            let whole = WholeImages::new(&camera, &pose, &bounds);
+            let whole = WholeImages::new(&camera, &pose, &bounds, &Reach::of(&bounds, &pose));
             if let Some(image) = whole.and_then(|whole| whole.of(&vertex)) {
                 prop_assert_eq!((image, true), image_of(&camera, &pose, &vertex));
             }
@@ -258,7 +260,8 @@ mod tests {
                 x_rot_deg: 3.4 * turn,
                 y_rot_deg: -4.3 * turn,
             });
-            let whole = WholeImages::new(&camera, &pose, &bounds).expect("possible");
+            let whole = WholeImages::new(&camera, &pose, &bounds, &Reach::of(&bounds, &pose))
+                .expect("possible");
             for k in 0..5000 {
                 let vertex = [2.0, 3.0, 5.0].map(|square| spread(k, square, 25.0) as f32);
                 let image = whole.of(&vertex);

@@ -337,6 +337,7 @@ mod tests {
     use crate::mesh::edges::fake::{self, Linked};
     use crate::mesh::{Mesh, Model};
     use crate::pose::{EulerPose, Pose};
+    use crate::render::reach::Reach;
     use crate::render::{Projected, render, scratch_needed};
     use proptest::prelude::*;
     use std::vec;
@@ -417,7 +418,7 @@ mod tests {
             let camera = camera();
             let mut slots = vec![FixedPoint::default(); vertices.len()];
             let mut images = Images::new(&mesh, &camera, &pose, &mut slots);
-            let facing = FacingTest::new(&mesh, &camera, &pose);
+            let facing = FacingTest::new(&mesh, &camera, &pose, &Reach::of(&mesh.bounds(), &pose));
             let mut room = vec![FixedPoint::default(); room_needed(&edges)];
             let mut words = vec![0; words_needed(SIDE, SIDE)];
             let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
@@ -438,7 +439,12 @@ mod tests {
         let linked = Linked::new(model.mesh());
         let (edges, packed) = (linked.edges(), linked.packed());
         let camera = camera();
-        let facing = FacingTest::new(model.mesh(), &camera, &FAR);
+        let facing = FacingTest::new(
+            model.mesh(),
+            &camera,
+            &FAR,
+            &Reach::of(&model.bounds(), &FAR),
+        );
         let wanted = draw(&model, &FAR);
         // Whether it is drawn, with so much room and slots for so many images.
         let fits = |edges: &Edges<'_>, room: usize, slots: usize| {

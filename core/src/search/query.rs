@@ -231,12 +231,12 @@ impl<'a> Counts<'a> {
     /// The counts from the row's beginning on, and on to the next row.
     #[inline(always)]
     fn next<const REVERSED: bool, const AHEAD: usize>(&mut self) -> Option<&'a [u8; AHEAD]> {
-        let counts = if REVERSED {
-            let end = self.before.len().checked_sub(self.first)?;
-            self.before.get(..end)?.last_chunk()?
+        let start = if REVERSED {
+            self.before.len().checked_sub(self.first + AHEAD)?
         } else {
-            self.before.get(self.first..)?.first_chunk()?
+            self.first
         };
+        let counts = self.before.get(start..)?.first_chunk()?;
         self.first += self.size;
         Some(counts)
     }

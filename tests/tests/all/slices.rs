@@ -5,7 +5,9 @@ use std::task::Poll;
 
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::first_poses;
-use fluoropose::finder::{FinderBuffers, FirstPoses, Found, Goal, Wanted, find_into, find_paced};
+use fluoropose::finder::{
+    FinderBuffers, FirstPoses, Found, FrameSearch, Goal, Wanted, find_into, find_paced,
+};
 use fluoropose::image::mask::words_needed;
 use fluoropose::implant::ImplantFile;
 use fluoropose::pace::{Pace, go_on};
@@ -96,6 +98,47 @@ fn in_slices_the_same_is_found_to_the_last_bit() {
         }
     }
     assert!(mirrored > 0, "no rival was refined");
+}
+
+#[test]
+fn one_search_serves_frame_after_frame() {
+    let (own, bytes) = made_tibia();
+    let file = ImplantFile::open(bytes.bytes()).expect("whole");
+    let (camera, component) = (camera(), file.component());
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let mut search = FrameSearch::new();
+    for euler in poses().step_by(8) {
+        let words = drawn(&own, euler);
+        let mask = Mask::new(&words, 512, 512).expect("valid");
+        for goal in [Goal::Outline, Goal::Library] {
+            let wanted = Wanted {
+                component: &component,
+                camera: &camera,
+                silhouette: &Silhouette::from(&mask),
+                goal,
+                options: RefineOptions::default(),
+            };
+            // Given up on its way, and begun anew.
+            let mut found = Found::NOTHING;
+            for _ in 0..3 {
+                assert!(search.go_on(&wanted, &mut memory, &mut found).is_pending());
+            }
+            search.restart();
+            let mut go_on = || search.go_on(&wanted, &mut memory, &mut found);
+            let mut slices = core::iter::repeat_with(&mut go_on).skip_while(Poll::is_pending);
+            assert_eq!(slices.next(), Some(Poll::Ready(Ok(()))));
+            // What comes after the end is the first slice again.
+            assert_eq!(slices.next(), Some(Poll::Pending));
+            search.restart();
+            let (mut alone, pace) = (Found::NOTHING, Pace::new());
+            let work = find_paced(&wanted, &mut memory, &mut alone, &pace);
+            assert_eq!(sliced(work, &pace, 7).0, Ok(()));
+            assert_eq!(found.candidates, alone.candidates, "{euler:?}");
+            let parts = |found: &Found| (found.clipped, found.partial);
+            assert_eq!(parts(&found), parts(&alone));
+        }
+    }
 }
 
 #[test]

@@ -80,7 +80,8 @@ fn patch(old: &[&str], new: &[String]) -> Vec<String> {
     };
     let alike = |a: &str, b: &str| {
         let ((a, x), (b, y)) = (parts(a), parts(b));
-        a == b && x.abs_diff(y) <= (x / TOLERANCE).max(SMALL)
+        // None is none: of calls that end in a panic.
+        a == b && (x == 0) == (y == 0) && x.abs_diff(y) <= (x / TOLERANCE).max(SMALL)
     };
     let gone = old
         .iter()
@@ -155,5 +156,8 @@ mod tests {
         );
         assert_eq!(patch(&old, &new(940_000, 10)).len(), 2);
         assert_eq!(patch(&old, &new(1_000_000, 10)[..2]), ["-c: 7 bytes"]);
+        let none = ["d: 0 calls"];
+        assert!(patch(&none, &["d: 0 calls".into()]).is_empty());
+        assert_eq!(patch(&none, &["d: 1 calls".into()]).len(), 2);
     }
 }

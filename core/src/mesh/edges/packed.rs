@@ -87,7 +87,10 @@ impl PackedEdges<'_> {
         mut visit: impl FnMut(&Group<'_>),
     ) {
         let mut room = GroupRoom::EMPTY;
-        for (numbers, edges) in self.boxes.iter().zip(self.edges.chunks(IN_BOX)) {
+        // Two lists side by side without `zip`, which asks how many parts there are and divides for that.
+        let mut parts = self.edges.chunks(IN_BOX);
+        for numbers in self.boxes {
+            let edges = parts.next().unwrap_or_default();
             if is_wanted(&EdgeBox::of_numbers(numbers)) {
                 visit(&room.listed(edges));
             }
