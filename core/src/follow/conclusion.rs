@@ -56,7 +56,7 @@ impl fmt::Display for Why {
     }
 }
 
-/// Where no more than one pose of so many is to be trusted, none is.
+/// Where fewer than one pose of so many is to be trusted, none is.
 const FEW: usize = 4;
 
 /// A frame at the end. Displayed, it is the reason for its state, a sentence without its full stop.
