@@ -107,3 +107,43 @@ fn judged(
     let one = |(cell, trust)| Conclusion::of(cell, trust);
     cells.iter().zip(&trusts).map(one).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::{looked, turned};
+
+    /// Twelve frames at rest, but for the sixth, which lies so far to the right, mm.
+    fn film(off_mm: f64) -> Vec<Cell> {
+        let cell = |frame: usize| {
+            let mut found = turned(0.0, 0.1);
+            found.pose.translation[0] = if frame == 5 { off_mm } else { 0.0 };
+            Cell::on_the_way(looked(Ok(found)))
+        };
+        (0..12).map(cell).collect()
+    }
+
+    /// The frames that are doubtful beside another component.
+    fn doubtful(cells: &[Cell], other: Option<&[Cell]>) -> Vec<usize> {
+        let middle = [3.0, -2.0, 1.0];
+        let other_middles = other.map_or(Vec::new(), |cells| trusted_middles(cells, &[], &middle));
+        let beside = KnownBeside {
+            other_middles: &other_middles,
+            ..KnownBeside::default()
+        };
+        let film = conclude(cells, &[], &beside, &middle);
+        (0..film.len())
+            .filter(|&frame| !film[frame].is_trusted())
+            .collect()
+    }
+
+    #[test]
+    fn a_jump_of_one_component_is_doubtful_and_one_of_both_is_their_motion() {
+        let (still, jumps) = (film(0.0), film(20.0));
+        assert_eq!(doubtful(&jumps, None), [4, 5, 6]);
+        assert_eq!(doubtful(&jumps, Some(&still)), [4, 5, 6]);
+        assert!(doubtful(&jumps, Some(&jumps)).is_empty());
+        assert!(doubtful(&still, Some(&jumps)).is_empty());
+        assert!(doubtful(&still, None).is_empty());
+    }
+}
