@@ -9,8 +9,9 @@ use wasm_bindgen::prelude::*;
 /// The core's sentence about the calibration.
 #[wasm_bindgen(js_name = cameraDoubts)]
 pub fn camera_doubts(text: &str, width: u32, height: u32) -> Result<Vec<String>, JsError> {
-    let camera = calibration::camera(text, width, height)?;
-    Ok(camera.doubts().map(|doubt| doubt.to_string()).collect())
+    let (calibration, camera) = calibration::calibration_of(text, width, height)?;
+    let doubts = calibration.doubts(&camera);
+    Ok(doubts.map(|doubt| doubt.to_string()).collect())
 }
 
 #[cfg(test)]

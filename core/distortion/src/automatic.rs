@@ -46,8 +46,8 @@ pub struct DistortionGrid {
 /// Without a radius, px, all radii from 1.3 to 42 px are tried.
 ///
 /// # Errors
-/// [`DistortionError::FewBeads`] with the greatest number that was found, [`DistortionError::Memory`], and
-/// [`DistortionError::Radius`].
+/// [`DistortionError::FewBeads`] with the greatest number that was found, [`DistortionError::Overlapping`] where only what lies between beads
+/// was found, as in a plate of the other brightness, [`DistortionError::Memory`], and [`DistortionError::Radius`].
 pub fn find_distortion_grid<P: Pixel>(
     frame: &Frame<'_, P>,
     bright: bool,
@@ -116,6 +116,13 @@ fn attempt<P: Pixel>(
     let radius = discs.iter().map(|disc| disc.radius_px).sum::<f64>() / marks.max(1) as f64;
     let beads = memory.beads.get_mut(..marks).unwrap_or_default();
     let step_px = number(beads, memory.queue)?;
+    // What lies between beads of the other brightness is a lattice as well.
+    if 2.0 * radius > step_px {
+        return Err(DistortionError::Overlapping {
+            radius_px: radius,
+            step_px,
+        });
+    }
     Ok(DistortionGrid {
         marks,
         numbered: beads.iter().filter(|bead| bead.index.is_some()).count(),
@@ -205,6 +212,19 @@ mod tests {
             find_distortion_grid(&frame, false, None, &mut memory),
             Err(DistortionError::FewBeads { .. })
         ));
+        for strength in [0.0, 0.05] {
+            let dark = picture(strength, 6.0);
+            let frame = Frame::new(&dark, 1024, 1024, 1024).expect("fits");
+            let found = find_distortion_grid(&frame, true, None, &mut memory);
+            assert!(
+                matches!(
+                    found,
+                    Err(DistortionError::FewBeads { .. } | DistortionError::Overlapping { .. })
+                ),
+                "{found:?}"
+            );
+        }
+        let frame = Frame::new(&plain, 300, 200, 300).expect("fits");
         memory.sums = &mut [];
         assert!(matches!(
             find_distortion_grid(&frame, false, None, &mut memory),

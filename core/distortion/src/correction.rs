@@ -100,10 +100,14 @@ const FAR: f64 = 5.0;
 /// unless it is nearer than this, px: towards the corners the polynomial itself may be that far off.
 const NEAR_PX: f64 = 0.5;
 
+/// A corrected lattice may lie so far off, of the step from bead to bead: what is numbered wrongly lies half a step off and more.
+const IRREGULAR: f64 = 0.1;
+
 /// Fits a correction to the numbered beads of a frame of `size` (columns, rows). Beads that are far off lose their number.
 ///
 /// # Errors
-/// [`DistortionError::FewBeads`], and [`DistortionError::Degenerate`] where the beads lie close to one line.
+/// [`DistortionError::FewBeads`], [`DistortionError::Degenerate`] where the beads lie close to one line, and [`DistortionError::Irregular`] where no
+/// correction brings them onto a lattice.
 pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, DistortionError> {
     let whole = numbered(beads).count();
     if whole < FEWEST {
@@ -138,6 +142,14 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, Distor
         }
     }
     let (_, solved, order) = best.ok_or(DistortionError::Degenerate { order: ORDERS[0] })?;
+    let after_px = root_mean_square(numbered(beads).map(|bead| coordinates.square(&solved, bead)));
+    let step_px = coordinates.lattice.spacing_px();
+    if after_px > IRREGULAR * step_px {
+        return Err(DistortionError::Irregular {
+            residual_px: after_px,
+            step_px,
+        });
+    }
     let distortion = Distortion {
         order,
         size,
@@ -153,7 +165,7 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, Distor
         before_px: root_mean_square(
             numbered(beads).map(|bead| square(coordinates.lattice.residual(bead))),
         ),
-        after_px: root_mean_square(numbered(beads).map(|bead| coordinates.square(&solved, bead))),
+        after_px,
         left_out_px,
     })
 }

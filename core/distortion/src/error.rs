@@ -23,6 +23,26 @@ pub enum DistortionError {
         /// The least number.
         needed: usize,
     },
+    /// The marks of the lattice would lie over one another, which no beads do: pixels.
+    #[error(
+        "marks of {radius_px:.1} px radius, {step_px:.1} px apart, are no beads, which would lie over one another; say whether the beads are brighter or darker than the plate"
+    )]
+    Overlapping {
+        /// Mean radius of the marks.
+        radius_px: f64,
+        /// Distance between neighbours.
+        step_px: f64,
+    },
+    /// The beads lie on no lattice, corrected or not: pixels.
+    #[error(
+        "the beads lie {residual_px:.1} px (RMS) off the lattice that fits them best, {step_px:.1} px from bead to bead: these marks are no flat grid; say whether its beads are brighter or darker than the plate, or choose a frame in which the plate fills the picture"
+    )]
+    Irregular {
+        /// Root mean square distance from it after correction.
+        residual_px: f64,
+        /// Distance between neighbours.
+        step_px: f64,
+    },
     /// The beads do not determine the polynomial.
     #[error(
         "the beads lie too close to one line for a correction of order {order}; they must be spread over the picture"

@@ -47,6 +47,17 @@ pub struct PlateCamera {
     pub used: usize,
 }
 
+/// Centres of beads are better than this, pixels: what is more is distortion.
+pub const DISTORTED_PX: f64 = 0.3;
+
+impl PlateCamera {
+    /// Whether the picture is distorted, so that the pitch is that of its middle at best: its correction comes first.
+    #[must_use]
+    pub fn is_distorted(&self) -> bool {
+        self.residual_px > DISTORTED_PX
+    }
+}
+
 /// Standard deviation of the prior at the frame's middle, mm at the detector.
 pub const PRIOR_MM: f64 = 10.0;
 

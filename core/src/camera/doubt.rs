@@ -3,12 +3,17 @@
 use core::fmt;
 
 use crate::camera::Camera;
+use crate::camera::calibration::Calibration;
 
 /// So far the principal point lies from the middle of frames that were not cut, in their sides: a frame of half or twice the size
 /// that was calibrated is farther off.
 const OFF_CENTRE: f64 = 0.2;
 /// The source stands so many times as far from the detector as the frame's longer side, in frames that were not cut.
 const TIMES: core::ops::RangeInclusive<f64> = 1.8..=10.0;
+/// Distances from focus to detector, mm: of small arms for hands, and of walls that are looked at from afar.
+const DISTANCES: core::ops::RangeInclusive<f64> = 300.0..=5000.0;
+/// Columns and rows of detectors and of their binned frames are multiples of this; those of a frame that somebody cut are so by chance.
+const BINNED: usize = 4;
 /// Sides of pixels differ by less.
 const UNEQUAL: f64 = 0.05;
 
@@ -34,6 +39,38 @@ pub enum CameraDoubt {
         /// Horizontal and vertical, pixels.
         focal: [f64; 2],
     },
+    /// No X-ray set has its detector at this distance from the focus, mm.
+    Distance(f64),
+    /// The frames look as if they were cut, and the calibration does not say of which frames it is.
+    Cut {
+        /// Width and height of the frame, pixels.
+        frame: [usize; 2],
+        /// The same on the detector, mm.
+        wide: [f64; 2],
+    },
+}
+
+impl Calibration {
+    /// What is unusual of this calibration and of the `camera` that it gives.
+    pub fn doubts(&self, camera: &Camera) -> impl Iterator<Item = CameraDoubt> {
+        let frame = [camera.width(), camera.height()];
+        let own = match *self {
+            Self::CameraMatrix { .. } => [None, None],
+            Self::PrincipalDistance {
+                distance, pitch, ..
+            } => [
+                (!DISTANCES.contains(&distance)).then_some(CameraDoubt::Distance(distance)),
+                frame
+                    .iter()
+                    .any(|side| side % BINNED != 0)
+                    .then_some(CameraDoubt::Cut {
+                        frame,
+                        wide: frame.map(|side| side as f64 * pitch),
+                    }),
+            ],
+        };
+        camera.doubts().chain(own.into_iter().flatten())
+    }
 }
 
 impl Camera {
@@ -76,6 +113,18 @@ impl fmt::Display for CameraDoubt {
                 "the focal length, {focal:.1} pixels, is {times:.2} times the frame's longer side; X-ray sources stand 2 to 6 times as far away: \
                  is it in pixels, not mm, and of frames of this size?"
             ),
+            Self::Distance(mm) => write!(
+                f,
+                "the principal distance is {mm} mm; detectors stand 0.3 to 5 m from the focus: is it in mm, and the pixel pitch too?"
+            ),
+            Self::Cut {
+                frame: [width, height],
+                wide: [right, down],
+            } => write!(
+                f,
+                "frames of {width} x {height} pixels look as if they were cut out of larger ones, and the calibration names no frame size: they are taken \
+                 for the whole frame, {right:.0} x {down:.0} mm of the detector; if they were cut, move its principal point by as much"
+            ),
             Self::Unequal {
                 focal: [horizontal, vertical],
             } => write!(
@@ -112,6 +161,30 @@ mod tests {
         ] {
             assert!(told(size, focal, point).is_empty(), "{focal:?}");
         }
+    }
+
+    #[test]
+    fn lengths_in_cm_and_frames_that_were_cut_are_told() {
+        let told = |distance: f64, pitch: f64, size: (usize, usize)| {
+            let calibration = Calibration::PrincipalDistance {
+                distance,
+                offset: [0.0; 2],
+                pitch,
+            };
+            let camera = calibration.camera(size.0, size.1).expect("possible");
+            let told = calibration.doubts(&camera).map(|doubt| doubt.to_string());
+            told.collect::<std::vec::Vec<_>>()
+        };
+        for size in [(1024, 1024), (880, 880), (1000, 1000), (768, 576)] {
+            assert!(told(1198.0, 0.373, size).is_empty(), "{size:?}");
+        }
+        let [centimetres] = told(119.8, 0.0373, (1024, 1024)).try_into().expect("one");
+        assert!(centimetres.contains("is 119.8 mm"), "{centimetres}");
+        let [cut] = told(1198.0, 0.373, (650, 430)).try_into().expect("one");
+        assert!(
+            cut.contains("650 x 430 pixels") && cut.contains("242 x 160 mm"),
+            "{cut}"
+        );
     }
 
     #[test]

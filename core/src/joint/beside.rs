@@ -18,6 +18,9 @@ use crate::pose::covariance::PoseCovariance;
 /// their size: condyles are as wide as the notch between them and more.
 const CONDYLE_OF_WIDTH: f64 = 1.0 / 3.0;
 
+/// A tray's width, in what a knee allows of both that are equally wide: a half less a third is a sixth.
+const WHOLE_TRAY: f64 = 6.0;
+
 /// How far the middles of both components of a knee lie beside each other. Whose side of the body it is does not matter, nor which end of
 /// an axis is which.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,6 +223,11 @@ impl fmt::Display for Beside {
             )?;
         } else {
             f.write_str("both components fit better with the picture flipped: ")?;
+        }
+        if mm > WHOLE_TRAY * most_mm && flipped.is_none() {
+            return f.write_str(
+                "that is farther than the tray is wide, which no mirrored picture does: is a model in another unit, or are poses or models those of the other component?",
+            );
         }
         f.write_str(match of_film {
             true => "are the pictures mirrored, or the models those of the other side of the body?",

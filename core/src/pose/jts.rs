@@ -33,7 +33,7 @@ pub enum JtsError {
     Heading,
     /// A row holds neither six finite numbers nor what stands for a frame without a pose.
     #[error(
-        "line {line} of the pose file does not hold six numbers (x, y, z in mm, then z, x, y rotation in degrees)"
+        "line {line} of the pose file does not hold six numbers (x, y, z in mm, then z, x, y rotation in degrees) with a decimal point; a frame without a pose is six times NaN"
     )]
     Row {
         /// Line, from 1.

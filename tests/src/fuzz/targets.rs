@@ -202,7 +202,7 @@ fn calibration(text: &str) {
         return;
     };
     if let Ok(camera) = calibration.camera(64, 48) {
-        let _ = camera.doubts();
+        calibration.doubts(&camera).for_each(drop);
         let words = words_needed(camera.width(), camera.height());
         assert!(words > 0, "a camera of no pixels");
     }

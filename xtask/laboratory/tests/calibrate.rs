@@ -68,6 +68,28 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
+/// What lies between dark beads is a lattice of bright marks.
+#[test]
+fn a_plate_of_dark_beads_is_refused_where_bright_ones_are_looked_for() {
+    let folder = folder("calibrate-bright");
+    let (grid, out) = (folder.join("plate.png"), folder.join("calibration.txt"));
+    write_grey(&grid, (SIDE, SIDE), &plate()).unwrap();
+    let done = std::process::Command::new(env!("CARGO_BIN_EXE_fluoropose"))
+        .args(["calibrate", "--bright", "--spacing", "10"])
+        .args(["--source-to-detector", "1200", "--source-to-plate", "1000"])
+        .args(["--grid", text(&grid), "--out", text(&out)])
+        .output()
+        .unwrap();
+    let error = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("brighter or darker") || error.contains("beads are bright"),
+        "{error}"
+    );
+    assert!(!out.exists());
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn a_plate_gives_camera_and_correction_and_the_correction_makes_it_straight() {
     let folder = folder("calibrate");

@@ -137,6 +137,23 @@ fn too_few_or_lined_up_beads_are_refused() {
 }
 
 #[test]
+fn marks_that_no_correction_brings_onto_a_lattice_are_refused() {
+    let mut scattered = beads(0.05, 0.0);
+    for (k, bead) in scattered.iter_mut().enumerate() {
+        let turn = k as f64 * 2.4;
+        bead.at = [
+            bead.at[0] + 9.0 * f64::cos(turn),
+            bead.at[1] + 9.0 * f64::sin(turn),
+        ];
+    }
+    let found = fit(&mut scattered, (1024, 1024));
+    assert!(
+        matches!(found, Err(DistortionError::Irregular { residual_px, .. }) if residual_px > 5.0),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn numbers_that_are_no_correction_are_refused() {
     let good = fit(&mut beads(0.05, 0.0), (1024, 1024))
         .expect("fits")

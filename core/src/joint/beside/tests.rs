@@ -184,3 +184,22 @@ fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
         "{words}"
     );
 }
+
+#[test]
+fn a_tray_farther_off_than_it_is_wide_is_no_mirrored_one() {
+    let words = |mm: f64| {
+        let beside = Beside {
+            mm,
+            most_mm: 12.7,
+            of_film: true,
+            flipped: None,
+        };
+        format!("{beside}")
+    };
+    assert!(words(40.0).contains("are the pictures mirrored"));
+    let far = words(295.0);
+    assert!(
+        far.contains("295 mm beside") && far.contains("another unit") && !far.contains("flip"),
+        "{far}"
+    );
+}

@@ -26,7 +26,9 @@ pub fn camera_of_frames(
     (width, height): (usize, usize),
 ) -> Result<(Camera, Vec<String>)> {
     let camera = calibration.camera(width, height)?;
-    let doubts = camera.doubts().map(|doubt| format!("camera: {doubt}"));
+    let doubts = calibration
+        .doubts(&camera)
+        .map(|doubt| format!("camera: {doubt}"));
     Ok((camera, doubts.collect()))
 }
 

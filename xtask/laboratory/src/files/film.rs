@@ -260,7 +260,7 @@ fn all_readable(folder: &Path, listed: Vec<Result<Listed>>) -> Result<Vec<Listed
         more => format!("; and {more} more"),
     };
     bail!(
-        "{}: {all} of {count} files cannot be read: {}{more}",
+        "{}: {all} of {count} files cannot be read: {}{more}. What belongs to no frame, or cannot be had again, is to be taken out of the folder; a frame with its row in files of poses",
         folder.display(),
         faults.join("; ")
     )

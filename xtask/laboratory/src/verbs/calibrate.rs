@@ -84,6 +84,7 @@ pub fn run(args: Args) -> Result<()> {
             };
             let found = camera(&beads, measured, size).with_context(|| name)?;
             describe_camera(&found);
+            tell_distortion(&found);
             write_camera(out, &found, measured)
         }
         _ => Ok(()),
@@ -167,6 +168,16 @@ fn describe_camera(found: &PlateCamera) {
         false => println!(
             "principal point: the frame's middle is taken, a plate this level does not show it"
         ),
+    }
+}
+
+/// What the camera of a distorted picture is worth, on standard error: outputs stay what programs read.
+fn tell_distortion(found: &PlateCamera) {
+    if found.is_distorted() {
+        eprintln!(
+            "the picture is distorted by {:.2} px (RMS): correct it first (--distortion), or the pitch is that of the middle at best",
+            found.residual_px
+        );
     }
 }
 

@@ -46,6 +46,11 @@ pub struct Args {
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
     let rows = compare(&args.study, &args.poses)?;
+    ensure!(
+        !rows.is_empty(),
+        "no component of {} has reference poses to compare with; name their file as reference in its [[component]]",
+        args.study.display()
+    );
     println!("{HEADING}");
     for row in &rows {
         println!("{row}");
