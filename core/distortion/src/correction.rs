@@ -143,13 +143,7 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, Distor
     }
     let (_, solved, order) = best.ok_or(DistortionError::Degenerate { order: ORDERS[0] })?;
     let after_px = root_mean_square(numbered(beads).map(|bead| coordinates.square(&solved, bead)));
-    let step_px = coordinates.lattice.spacing_px();
-    if after_px > IRREGULAR * step_px {
-        return Err(DistortionError::Irregular {
-            residual_px: after_px,
-            step_px,
-        });
-    }
+    check_regular(after_px, coordinates.lattice.spacing_px())?;
     let distortion = Distortion {
         order,
         size,
@@ -168,6 +162,18 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, Distor
         after_px,
         left_out_px,
     })
+}
+
+/// # Errors
+/// [`DistortionError::Irregular`] for what is no lattice.
+fn check_regular(residual_px: f64, step_px: f64) -> Result<(), DistortionError> {
+    match residual_px > IRREGULAR * step_px {
+        true => Err(DistortionError::Irregular {
+            residual_px,
+            step_px,
+        }),
+        false => Ok(()),
+    }
 }
 
 fn numbered(beads: &[Bead]) -> impl Iterator<Item = &Bead> {
