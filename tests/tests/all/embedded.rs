@@ -238,13 +238,9 @@ fn what_comes_in_a_wrong_order_is_refused() {
 }
 
 #[test]
-fn pointers_that_lead_nowhere_give_an_error() {
-    let (own, bytes) = made_femur();
+fn nothing_is_opened_by_pointers_that_lead_nowhere() {
+    let (_, bytes) = made_femur();
     let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
-    let words = drawn(&own, poses().nth(2).expect("some"));
-    let mask = Mask::new(&words, 512, 512).expect("valid");
-    let c = opened(bytes.bytes(), &ROOM);
-    c.rows(&mask);
     let (mut finder, mut memory) = (null_mut(), vec![0u64; 64]);
     let place: *mut u8 = memory.as_mut_ptr().cast();
     let room: *const Room = &ROOM;
@@ -270,58 +266,84 @@ fn pointers_that_lead_nowhere_give_an_error() {
         assert_eq!(opened, Status::Pointer);
         assert_eq!(fluoropose_bytes_needed(null(), length, &ROOM), 0);
         assert_eq!(fluoropose_bytes_needed(file, length, null()), 0);
-        for impossible in [[0, 9], [9, 0], [u32::MAX; 2]] {
-            let [columns, rows] = impossible;
-            let room = Room {
-                columns,
-                rows,
-                ..ROOM
-            };
-            assert_eq!(fluoropose_bytes_needed(file, length, &room), 0);
-        }
-        for border in [u32::MAX, 1 << 31] {
-            // A list that no memory has on 32 bits; on 64, one that is longer than what is given.
-            let room = Room {
-                border,
-                runs: border,
-                ..ROOM
-            };
-            let opened = fluoropose_open(&mut finder, file, length, 1, &room, place, 512);
-            assert_eq!(opened, Status::Memory);
-        }
-        // No session: null, at an odd place, zeros, one that could not be opened.
-        for finder in [null_mut(), odd.cast(), place.cast()] {
-            assert_eq!(
-                fluoropose_camera_of(finder, &mut CameraNumbers::default()),
-                Status::Pointer
-            );
-            assert_eq!(
-                fluoropose_set_camera(finder, &CameraNumbers::default()),
-                Status::Pointer
-            );
-            assert_eq!(
-                fluoropose_outline(finder, [Point::new(0.0, 0.0)].as_ptr(), 1),
-                Status::Pointer
-            );
-            assert_eq!(
-                fluoropose_set_calibration(finder, &CalibrationNumbers::default()),
-                Status::Pointer
-            );
-            assert_eq!(fluoropose_begin_rows(finder), Status::Pointer);
-            assert_eq!(fluoropose_row(finder, 0, [1].as_ptr(), 1), Status::Pointer);
-            assert_eq!(fluoropose_find(finder), Status::Pointer);
-            assert_eq!(fluoropose_go_on(finder, 1), Status::Pointer);
-            assert_eq!(
-                fluoropose_found_of(finder, &mut FoundNumbers::default()),
-                Status::Pointer
-            );
-            assert_eq!(
-                fluoropose_candidate_of(finder, 0, &mut CandidateNumbers::default()),
-                Status::Pointer
-            );
+    }
+}
+
+#[test]
+fn nothing_is_opened_in_rooms_that_no_memory_has() {
+    let (_, bytes) = made_femur();
+    let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
+    let (mut finder, mut memory) = (null_mut(), vec![0u64; 64]);
+    let place = memory.as_mut_ptr().cast();
+    for [columns, rows] in [[0, 9], [9, 0], [u32::MAX; 2]] {
+        let room = Room {
+            columns,
+            rows,
+            ..ROOM
+        };
+        // SAFETY: the bytes are as many as is said.
+        let needed = unsafe { fluoropose_bytes_needed(file, length, &room) };
+        assert_eq!(needed, 0);
+    }
+    for border in [u32::MAX, 1 << 31] {
+        // A list that no memory has on 32 bits; on 64, one that is longer than what is given.
+        let room = Room {
+            border,
+            runs: border,
+            ..ROOM
+        };
+        // SAFETY: bytes and memory are as long as is said.
+        let opened = unsafe { fluoropose_open(&mut finder, file, length, 1, &room, place, 512) };
+        assert_eq!(opened, Status::Memory);
+    }
+}
+
+#[test]
+fn what_is_no_session_is_refused_by_each_function() {
+    let (_, bytes) = made_femur();
+    let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
+    let (mut unopened, mut memory) = (null_mut(), vec![0u64; 64]);
+    let place: *mut u8 = memory.as_mut_ptr().cast();
+    let none = Status::Pointer;
+    // SAFETY: what is not null leads to as much as is said.
+    unsafe {
+        let opened = fluoropose_open(&mut unopened, file, length, 1, &ROOM, place, 512);
+        assert_eq!((opened, unopened.is_null()), (Status::Memory, true));
+        // Null, at an odd place, one that could not be opened.
+        for finder in [null_mut(), place.add(1).cast(), place.cast()] {
+            let mut camera = CameraNumbers::default();
+            assert_eq!(fluoropose_camera_of(finder, &mut camera), none);
+            assert_eq!(fluoropose_set_camera(finder, &camera), none);
+            let calibration = CalibrationNumbers::default();
+            assert_eq!(fluoropose_set_calibration(finder, &calibration), none);
+            let point = [Point::new(0.0, 0.0)];
+            assert_eq!(fluoropose_outline(finder, point.as_ptr(), 1), none);
+            assert_eq!(fluoropose_begin_rows(finder), none);
+            assert_eq!(fluoropose_row(finder, 0, [1].as_ptr(), 1), none);
+            assert_eq!(fluoropose_find(finder), none);
+            assert_eq!(fluoropose_go_on(finder, 1), none);
+            let mut found = FoundNumbers::default();
+            assert_eq!(fluoropose_found_of(finder, &mut found), none);
+            let mut candidate = CandidateNumbers::default();
+            assert_eq!(fluoropose_candidate_of(finder, 0, &mut candidate), none);
             assert_eq!(fluoropose_sentence(finder, null_mut(), 0), 0);
         }
-        let finder = c.finder;
+    }
+}
+
+#[test]
+fn pointers_that_lead_nowhere_give_an_error_in_a_session() {
+    let (own, bytes) = made_femur();
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let c = opened(bytes.bytes(), &ROOM);
+    c.rows(&mask);
+    let mut memory = vec![0u64; 64];
+    let place: *mut u8 = memory.as_mut_ptr().cast();
+    let finder = c.finder;
+    // SAFETY: an open session; what is not null leads to as much as is said.
+    unsafe {
+        let odd = place.add(1);
         assert_eq!(fluoropose_outline(finder, null(), 5), Status::Pointer);
         assert_eq!(fluoropose_outline(finder, null(), 0), Status::Outline);
         assert_eq!(fluoropose_outline(finder, odd.cast(), 3), Status::Pointer);
@@ -342,20 +364,14 @@ fn pointers_that_lead_nowhere_give_an_error() {
         );
         // A sentence is cut off, and ends where there is room for its end.
         let whole = c.sentence();
-        let mut text = [1u8; 6];
-        assert_eq!(
-            fluoropose_sentence(finder, text.as_mut_ptr().cast(), 5),
-            whole.len()
-        );
+        let (mut text, length) = ([1u8; 6], whole.len());
+        let mut sentence = |room| fluoropose_sentence(finder, text.as_mut_ptr().cast(), room);
+        assert_eq!([sentence(5), sentence(0)], [length; 2]);
         assert_eq!(
             (&text[..4], &text[4..]),
             (&whole.as_bytes()[..4], &[0, 1][..])
         );
-        assert_eq!(fluoropose_sentence(finder, null_mut(), 5), whole.len());
-        assert_eq!(
-            fluoropose_sentence(finder, text.as_mut_ptr().cast(), 0),
-            whole.len()
-        );
+        assert_eq!(fluoropose_sentence(finder, null_mut(), 5), length);
     }
 }
 

@@ -140,6 +140,21 @@ impl OneClick {
                 true => Stage::Slide,
                 false => Stage::InJoint(0),
             },
+            Stage::InJoint(_) | Stage::Beyond(_) | Stage::Mirror(_) | Stage::Beside(_) => {
+                self.farther_step(observation, component, memory)?
+            }
+            Stage::Done => Stage::Done,
+        })
+    }
+
+    /// One step of the stages that look at poses away from those that the place led to; what comes next.
+    fn farther_step(
+        &mut self,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<Stage, OneClickError> {
+        Ok(match self.stage {
             Stage::InJoint(at) => {
                 if self.refine_in_joint(at, observation, component, memory)? {
                     Stage::InJoint(at + 1)
@@ -169,7 +184,7 @@ impl OneClick {
                     self.end(observation)?
                 }
             }
-            Stage::Done => Stage::Done,
+            stage => stage,
         })
     }
 
