@@ -1,4 +1,4 @@
-/** Tools and the keyboard: drafts survive a change of tool, and a region needs no mouse. Tools that find the edges themselves: threshold, live-wire, snap, and shaping what they found. */
+/** Tools that find the edges themselves: threshold, live-wire, snap, and shaping what they found. */
 import assert from 'node:assert/strict';
 import { drawn, IN_FIREFOX, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
@@ -7,17 +7,11 @@ import { polygonWithin, trueOutline, truePose } from './support/study.mjs';
 import * as tracing from './support/tracing.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
-/** @typedef {import('./support/study.mjs').Point} Point */
 
-pageTest('tools by keyboard; threshold, live-wire and snap', async (page, t) => {
+pageTest('threshold, live-wire and snap', async (page, t) => {
   const stage = new Stage(page);
   await tracing.openDemonstration(page);
   await stage.learn();
-  await step(page, t, 'switching tools keeps a draft, Esc leaves without loss', () => draftStays(page, stage));
-  await step(page, t, 'the keyboard alone takes a region', (t) => byKeyboard(page, t));
-  await step(page, t, 'the sheet of keys tells of all of them', () => sheetOfKeys(page));
-  await page.keyboard.press('Shift+Delete');
-  await until(() => panel.shownPose(page), (shown) => shown === null, 'the outline to be gone');
   await step(page, t, 'threshold: a click inside takes the region, its level can be moved', (t) => threshold(page, stage, t));
   await step(page, t, 'live-wire: the path follows the edge, Backspace and undo take it back', (t) => liveWire(page, stage, t));
   if (IN_FIREFOX) {
@@ -29,56 +23,6 @@ pageTest('tools by keyboard; threshold, live-wire and snap', async (page, t) => 
   await step(page, t, 'shape: simplified with its error shown', () => shape(page));
   await step(page, t, 'both components by a tool are as near as by two clicks', (t) => both(page, stage, t));
 });
-
-/** @param {Page} page @param {Stage} stage */
-async function draftStays(page, stage) {
-  await page.keyboard.press('p');
-  for (const point of /** @type {Point[]} */ ([[400, 400], [600, 400], [600, 600]])) await stage.click(point);
-  await panel.waitForWords(page, /^3 points\./);
-  for (const key of ['l', 't', 'b', 'k', 'm', 'o', 'v', 'Escape', 'p']) await page.keyboard.press(key);
-  await stage.hover([700, 300]);
-  await panel.waitForWords(page, /^3 points\./);
-  await page.keyboard.press('l');
-  await stage.click([500, 700]);
-  await page.getByRole('button', { name: 'Undo: follow the edge' }).waitFor();
-  await page.keyboard.press('Control+z');
-  await page.keyboard.press('p');
-  await stage.hover([700, 300]);
-  await panel.waitForWords(page, /^3 points\./);
-  await page.keyboard.press('Shift+Delete');
-}
-
-/** @param {Page} page @param {import('node:test').TestContext} t */
-async function byKeyboard(page, t) {
-  await page.getByRole('application').focus();
-  await page.mouse.move(1, 1);
-  await page.keyboard.press('t');
-  // From the middle of the frame, at 512 and 512, into the femur's shield.
-  await page.keyboard.press('Shift+ArrowDown');
-  await page.keyboard.press('Shift+ArrowDown');
-  await page.keyboard.press('ArrowUp');
-  await page.keyboard.press('i');
-  const pose = await tracing.corrected(page);
-  t.diagnostic(`by keyboard: ${panel.differences(pose, await truePose('femur', 1))}`);
-  panel.assertNear(pose, await truePose('femur', 1), tracing.BY_ONE_CLICK);
-  await page.keyboard.press('ArrowUp');
-  await page.keyboard.press('Enter');
-  await tracing.toolInHand(page, 'Edit points');
-}
-
-/** @param {Page} page */
-async function sheetOfKeys(page) {
-  await page.keyboard.press('?');
-  const sheet = page.getByRole('dialog', { name: 'Keys and mouse' });
-  // What it tells comes when it is first opened.
-  await sheet.getByText('Live-wire').first().waitFor();
-  const text = await sheet.innerText();
-  for (const words of ['Live-wire', 'Threshold', 'One click', 'Brush', 'Snap the outline', 'Copy the outline of the previous frame']) {
-    assert(text.includes(words), `the sheet says nothing of ${words}`);
-  }
-  await screenshot(page, 'keys of tools');
-  await page.keyboard.press('Escape');
-}
 
 /** @param {Page} page @param {Stage} stage @param {import('node:test').TestContext} t */
 async function threshold(page, stage, t) {

@@ -2,4 +2,5 @@
 import '../edges.test.mjs';
 import '../keys.test.mjs';
 import '../outline_tools.test.mjs';
+import '../tool_keys.test.mjs';
 import '../tracing.test.mjs';
