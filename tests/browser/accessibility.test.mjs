@@ -1,4 +1,4 @@
-/** Names, roles, contrast and the keyboard's way through the page. */
+/** The keyboard's way through the page and its sheets, and what lies on what in a narrow window; names, roles and contrast of what is open and of sheets: `axe.test.mjs`. */
 import assert from 'node:assert/strict';
 import { bringAxe, isAccessible } from './support/axe.mjs';
 import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
@@ -43,7 +43,6 @@ const MAIN_CONTROLS = [
 pageTest('accessibility', async (page, t) => {
   await bringAxe(page);
   await step(page, t, 'the empty page', async () => {
-    await isAccessible(page);
     // Neither a way to go nor anything to save.
     assert.equal(await page.getByRole('button', { name: 'Save session', exact: true }).count(), 0);
     assert.equal(await page.getByRole('list', { name: 'Steps' }).count(), 0);
@@ -57,7 +56,6 @@ pageTest('accessibility', async (page, t) => {
     await stage.learn();
     await stage.trace(await trueOutline('femur', 1));
     await panel.waitForPose(page);
-    await isAccessible(page);
   });
 
   for (const [opener, sheet] of [['Calibration: calibration.txt', 'Calibration'], ['Femur: femur.stl', 'Femur'], ['Save and export', 'Save and export'], ['Keys and mouse', 'Keys and mouse'], ['Log', 'Log']]) {
@@ -65,7 +63,6 @@ pageTest('accessibility', async (page, t) => {
       const button = page.getByRole('button', { name: opener, exact: true });
       await button.press('Enter');
       await page.getByRole('dialog', { name: sheet }).waitFor();
-      await isAccessible(page);
       await screenshot(page, `sheet ${sheet}`);
       await page.keyboard.press('Escape');
       await page.getByRole('dialog', { name: sheet }).waitFor({ state: 'hidden' });
@@ -86,22 +83,7 @@ pageTest('accessibility', async (page, t) => {
       at = next;
     }
   });
-});
 
-/** Names of everything that Tab reaches, from the first control to the last. @param {Page} page */
-async function tabThrough(page) {
-  await page.getByRole('textbox', { name: 'Name of the study' }).focus();
-  const reached = [await focused(page)];
-  while (reached.at(-1) !== 'Log' && reached.length < 80) {
-    await page.keyboard.press('Tab');
-    reached.push(await focused(page));
-  }
-  return reached;
-}
-
-pageTest('a narrow window', async (page, t) => {
-  await panel.openDemonstration(page);
-  await panel.waitForLibraries(page, 'Femur', 'Tibia');
   for (const width of [1440, 1024, 700]) {
     await step(page, t, `${width} px: nothing lies on what is to be pressed`, async () => {
       await page.setViewportSize({ width, height: 700 });
@@ -114,6 +96,17 @@ pageTest('a narrow window', async (page, t) => {
     });
   }
 });
+
+/** Names of everything that Tab reaches, from the first control to the last. @param {Page} page */
+async function tabThrough(page) {
+  await page.getByRole('textbox', { name: 'Name of the study' }).focus();
+  const reached = [await focused(page)];
+  while (reached.at(-1) !== 'Log' && reached.length < 80) {
+    await page.keyboard.press('Tab');
+    reached.push(await focused(page));
+  }
+  return reached;
+}
 
 /** Names in the top bar that there is no room for. @param {Page} page */
 function cutNames(page) {

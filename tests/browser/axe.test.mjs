@@ -6,6 +6,8 @@ import { fromOpeningToPose } from './support/workflow.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
+/** Some of the sheets that are there. */
+const SHEETS = ['Calibration', 'Femur', 'Save and export', 'Keys and mouse', 'Log'];
 const THEMES = /** @type {const} */ (['dark', 'light']);
 
 pageTest('accessibility in both themes', async (page, t) => {
@@ -54,11 +56,14 @@ async function eachSheet(page) {
   const openers = page.locator('button[aria-haspopup=dialog]:enabled');
   const count = await openers.count();
   assert(count >= 6, `only ${count} buttons open a sheet`);
+  const seen = [];
   for (let index = 0; index < count; index++) {
     await openers.nth(index).click();
     const name = await page.getByRole('dialog').first().getAttribute('aria-label');
+    seen.push(name);
     await inBothThemes(page, `sheet ${name}`);
     await page.keyboard.press('Escape');
     await page.getByRole('dialog').first().waitFor({ state: 'hidden' });
   }
+  for (const sheet of SHEETS) assert(seen.includes(sheet), `${sheet} is not among ${seen.join(', ')}`);
 }

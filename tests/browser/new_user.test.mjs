@@ -1,6 +1,6 @@
 /** From the empty page to a refined pose, by one click and by a plain polygon; clicks counted (seconds: `cargo xtask bench --browser`). Fingers on the frame. */
 import assert from 'node:assert/strict';
-import { atRest, IN_FIREFOX, pageTest, screenshot, until } from './support/browser.mjs';
+import { atRest, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { truePose } from './support/study.mjs';
@@ -35,7 +35,7 @@ pageTest('a new user with one click', async (page, t) => {
   await until(() => panel.shownPose(page), (shown) => shown === null, 'outline and pose to be gone together');
   await page.keyboard.press('Control+y');
   await panel.waitForThePose(page, settled);
-  if (!IN_FIREFOX) await withTheOther(page, t);
+  await withTheOther(page, t);
 });
 
 /** The film that both components tell corrects the pose that was there. @param {Page} page @param {import('node:test').TestContext} t */
@@ -81,16 +81,16 @@ pageTest('a new user with a plain polygon', async (page, t) => {
   t.diagnostic(`${clicks} clicks, ${seconds.toFixed(1)} s: ${panel.differences(pose, truth)}`);
   panel.assertNear(pose, truth, QUICK);
   assert(clicks < MOST_CLICKS_OF_A_POLYGON, `${clicks} clicks`);
-});
-
-if (!IN_FIREFOX) {
-  pageTest('fingers zoom and move the frame', async (page) => {
+  await step(page, t, 'fingers zoom and move the frame', async () => {
+    await page.keyboard.press('Shift+Delete');
+    await until(() => panel.shownPose(page), (shown) => shown === null, 'the frame to be as it was opened');
+    await page.keyboard.press('o');
+    await page.keyboard.press('0');
     const stage = new Stage(page);
-    await tracing.openDemonstration(page);
     await stage.learn();
     await pinch(page, stage);
   });
-}
+});
 
 /** Presses and seconds of a way through the page. @param {Page} page @param {() => Promise<import('./support/study.mjs').Pose>} way */
 async function timed(page, way) {

@@ -31,6 +31,7 @@ export const ARGUMENTS = [
 const CUSTOMARY = process.env.FLUOROPOSE_FIREFOX
   ? {}
   : /** @type {const} */ ({ reducedMotion: 'reduce', colorScheme: 'dark', permissions: ['clipboard-read', 'clipboard-write'] });
+const WITH_SCREENSHOTS = process.env.FLUOROPOSE_SCREENSHOTS !== undefined;
 const SCREENSHOTS = fileURLToPath(new URL('../../../target/screenshots/', import.meta.url));
 
 /** Where the runner serves the page, with a slash at its end. */
@@ -81,7 +82,7 @@ export function pageTest(name, body, { refusals = false, builds = false } = {}) 
     try {
       await body(page, t);
     } catch (error) {
-      await screenshot(page, `failed ${name}`).catch(() => undefined);
+      await picture(page, `failed ${name}`).catch(() => undefined);
       throw error;
     } finally {
       await page.context().close();
@@ -104,7 +105,7 @@ export async function step(page, t, name, body) {
       await body(inner);
     } catch (error) {
       // A page that has crashed shows nothing; the error itself must not get lost over it.
-      await screenshot(page, `failed ${name}`).catch(() => undefined);
+      await picture(page, `failed ${name}`).catch(() => undefined);
       throw error;
     }
   });
@@ -222,13 +223,18 @@ function rememberWords() {
 export const AS_IT_IS = /** @type {const} */ ({ caret: 'initial' });
 
 /**
- * Writes what the page looks like to `target/screenshots`.
+ * Writes what the page looks like to `target/screenshots`, where somebody wants to look at it (`FLUOROPOSE_SCREENSHOTS`): each takes 0.15 s of a processor.
  *
  * @param {import('playwright-core').Page} page
  * @param {string} name
  * @param {import('playwright-core').Locator} [part] of the page; the whole window without it
  */
 export async function screenshot(page, name, part) {
+  if (WITH_SCREENSHOTS) await picture(page, name, part);
+}
+
+/** What `screenshot` writes, asked for or not. @param {import('playwright-core').Page} page @param {string} name @param {import('playwright-core').Locator} [part] */
+async function picture(page, name, part) {
   await mkdir(SCREENSHOTS, { recursive: true });
   const whole = IN_FIREFOX ? `firefox ${name}` : name;
   const file = `${whole.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;

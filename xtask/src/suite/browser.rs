@@ -19,11 +19,11 @@ const PACKAGES: &str = "browser: packages of the page";
 const CHROMIUM: &str = "browser: the page in Chromium";
 const FIREFOX: &str = "browser: the page in Firefox";
 
-/// What is driven in Firefox too: the ways from opening to a pose, every tool, and the keys. Of the rest its driver has no
-/// words for downloads and dropped files.
+/// What is driven in Firefox too: the way from opening to a pose, every tool that has a pointer, and the keys. What the core does alike in each browser, its tests leave out
+/// there; of the rest its driver has no words for downloads and dropped files.
 ///
-/// Each of the two has the tests of several files: each start of Firefox takes 3.5 s of a processor.
-const IN_FIREFOX: [&str; 2] = ["together/poses.mjs", "together/tools.mjs"];
+/// All of it in one program: each start of Firefox takes 3.5 s of a processor.
+const IN_FIREFOX: &str = "together/tools.mjs";
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
@@ -79,7 +79,7 @@ fn in_chromium() -> Result<Said> {
 
 fn in_firefox() -> Result<Said> {
     let firefox = programs::firefox()?;
-    drive(IN_FIREFOX.map(str::to_owned).into(), 2, &|tests| {
+    drive(vec![IN_FIREFOX.to_owned()], 1, &|tests| {
         tests.env("FLUOROPOSE_FIREFOX", &firefox);
     })
 }

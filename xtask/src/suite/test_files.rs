@@ -15,13 +15,12 @@ use crate::setup::failed::Failed;
 use crate::setup::telling;
 
 /// The longest, which begin first.
-const LONG: [&str; 9] = [
+const LONG: [&str; 8] = [
     "together/films.mjs",
     "together/looks.mjs",
     "together/by_command.mjs",
     "together/work.mjs",
     "together/small.mjs",
-    "together/poses.mjs",
     "together/own.mjs",
     "together/tools.mjs",
     "crash",
