@@ -57,6 +57,7 @@ impl fmt::Display for Why {
 }
 
 /// Where fewer than one pose of so many is to be trusted, none is.
+#[cfg(any(feature = "alloc", test))]
 const FEW: usize = 4;
 
 /// A frame at the end. Displayed, it is the reason for its state, a sentence without its full stop.
@@ -176,6 +177,7 @@ pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
 
 /// Makes the few poses of a film that are to be trusted doubtful where nearly all that was found is: they share model, calibration, constants of
 /// the film, and often the way to them. What a person gave counts on neither side.
+#[cfg(any(feature = "alloc", test))]
 pub(super) fn doubt_few(film: &mut [Conclusion]) {
     let found = |one: &&Conclusion| matches!(one.state, State::Followed | State::Doubtful);
     let poses = film.iter().filter(found).count();
