@@ -12,7 +12,7 @@ import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { later } from '../texts/later';
 import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
-import { componentFor } from './guess';
+import { atHand, componentFor } from './guess';
 import { rowsOfFrames } from './pose_rows';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
@@ -33,6 +33,7 @@ interface Recognised extends Incoming {
  * others are opened all the same.
  */
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
+  const { store } = services;
   const before = cameraKey(services);
   const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
@@ -59,6 +60,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
+  store.show({ component: atHand(store.doc, store.ui.component) });
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
   askWhichPoses(services, poses);

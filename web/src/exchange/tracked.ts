@@ -44,6 +44,7 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   const { result } = cell;
   if (result?.kind !== 'posed') return ['no pose', 'none', result?.sentence ?? ''];
   const doubt = doubtOf(cell);
+  if (doubt !== null && isChecked) return ['fixed', 'good', texts.follow.accepted(doubt)];
   if (doubt !== null) return ['doubtful', 'doubtful', doubt];
   const verdict = verdictOf(result);
   // What nobody and nothing has held against the frame is not good yet.

@@ -62,6 +62,7 @@ describe('poses as the commands take them', () => {
     expect(state({ from: 'file' })).toBe('fixed good');
     expect(state({})).toBe('followed good');
     expect(state({ from: 'file', verdict })).toBe('doubtful doubtful');
+    expect(state({ verdict }, true)).toBe('fixed good');
     expect(state({ from: 'file', verdict: null })).toBe('fixed none');
     expect(state({ from: 'file', verdict: null }, true)).toBe('fixed good');
   });
@@ -77,6 +78,7 @@ describe('poses as the commands take them', () => {
     expect(because({ from: 'file', verdict: null })).toBe('it was not held against the frame');
     expect(because({ from: 'file', verdict: null }, true)).toBe('a person fixed the pose');
     expect(because({ from: 'file' })).toBe('it fits');
+    expect(because({ verdict: { word: 'doubtful', because: 'so' } }, true)).toBe('a person accepted it; it was doubtful: so');
   });
 
   it('say of a pose that a person took instead of the followed one what that leaves, not what was said of the other', () => {
