@@ -1,5 +1,6 @@
 import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
+import { gapsIn } from './name_gaps';
 import { byName } from './name_order';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
@@ -376,7 +377,7 @@ async function openFrames(
   keepUnread(services, lost, entries);
   if (entries.length === 0) return;
   addToDocument(services, distinct(entries), isMended, files[0]?.path);
-  news.push(...repeatsAmong(decoded));
+  news.push(...repeatsAmong(decoded), ...gapsAmong(files));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
@@ -409,6 +410,11 @@ function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
     return next && next.print === print && next.entry.width === width ? [[at + 1, at + 2] as const] : [];
   });
   return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
+}
+
+function gapsAmong(files: readonly Incoming[]): readonly string[] {
+  const gaps = gapsIn(files.map(({ name }) => name));
+  return gaps ? [texts.said.gaps(gaps.missing, gaps.between.slice(0, NAMED), Math.max(gaps.between.length - NAMED, 0))] : [];
 }
 
 /** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */
