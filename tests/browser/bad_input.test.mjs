@@ -6,7 +6,7 @@ import { dicom, jpeg, png, tiff } from './support/frames.mjs';
 import { femurLibrary } from './support/library.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
-import { demoFile, framePath, trueOutline } from './support/study.mjs';
+import { demoFile, framePath, trueOutline, truePose } from './support/study.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
@@ -14,6 +14,7 @@ import { demoFile, framePath, trueOutline } from './support/study.mjs';
 
 /** Fractions of a file that are left of it. */
 const CUTS = [0.12, 0.5, 0.9];
+const QUANTITIES = /** @type {const} */ (['x', 'y', 'z', 'zRot', 'xRot', 'yRot']);
 /** A library begins with eight letters. */
 const MAGIC_BITS = 64;
 /** What no sentence for a person has in it. */
@@ -78,6 +79,44 @@ pageTest('bad input', async (page, t) => {
     }
   });
 });
+
+/** Poses belong to their frames, whatever becomes of those: a row moved by one is a wrong pose that nobody sees. */
+pageTest('rows of poses beside a damaged frame', async (page, t) => {
+  const frames = await Promise.all([1, 2, 3, 4].map((frame) => demoFile(framePath(frame))));
+  const cut = { ...frames[1], buffer: frames[1].buffer.subarray(0, frames[1].buffer.length * 0.66) };
+  const films = [frames[0], cut, frames[2], frames[3]];
+  const poses = await demoFile('femur.jts');
+  const lines = poses.buffer.toString().split(/\r?\n/);
+  const rows = (/** @type {number} */ count) => file('femur.jts', `${lines.slice(0, 2 + count).join('\n')}\n`);
+
+  await step(page, t, 'other counts are refused, with both and what could not be read', async () => {
+    await choose(page, ...films, rows(6));
+    await panel.waitForFrames(page, 3);
+    const sentence = await refused(page, 'femur.jts', /6 rows of poses for 3 frames/);
+    assert.match(sentence, /0002\.png could not be read/);
+    assert.deepEqual((await panel.cells(page)).filter((name) => name.includes('pose')), []);
+  });
+  await step(page, t, 'rows for the damaged one too stay each with its own frame', async () => {
+    await choose(page, rows(4));
+    await panel.waitForWords(page, /^Opened femur\.jts as poses of the femur \(it has rows for 0002\.png too/);
+    await page.getByRole('button', { name: /^Frame 3, femur: pose loaded/ }).click();
+    await isNear(page, await truePose('femur', 4));
+  });
+  await step(page, t, 'the same file mended has its place among them', async () => {
+    await choose(page, frames[1]);
+    await panel.waitForFrames(page, 4);
+    await until(() => panel.cells(page), (cells) => cells.includes('Frame 2, femur: empty') && cells.includes('Frame 4, femur: pose loaded'), 'the mended frame as the second');
+    await choose(page, rows(4));
+    await page.getByRole('button', { name: /^Frame 2, femur: pose loaded/ }).click();
+    await isNear(page, await truePose('femur', 2));
+  });
+});
+
+/** The pose that is shown, to what the page rounds to. @param {Page} page @param {import('./support/study.mjs').Pose} wanted */
+async function isNear(page, wanted) {
+  const isIt = (/** @type {import('./support/study.mjs').Pose | null} */ pose) => pose !== null && QUANTITIES.every((name) => Math.abs(pose[name] - wanted[name]) <= panel.ROUNDING[name]);
+  await until(() => panel.shownPose(page), isIt, `the pose ${JSON.stringify(wanted)}`);
+}
 
 /** An outline with its pose on the first of two frames. @param {Page} page @param {Stage} stage */
 async function begunWork(page, stage) {

@@ -165,13 +165,16 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
 
 // --- What is opened ---------------------------------------------------------------------------------------------
 
-export function addFrames(frames: readonly FrameEntry[]): Command {
+/** Behind those that are there; with an order of names each at its place among them. */
+export function addFrames(frames: readonly FrameEntry[], byName?: (a: string, b: string) => number): Command {
   return {
     label: texts.steps.openFrames(frames.length),
     apply: (doc) => {
       const known = new Set(doc.frames.map((frame) => frame.id));
       const fresh = frames.filter((frame) => !known.has(frame.id));
-      return fresh.length === 0 ? doc : { ...doc, frames: [...doc.frames, ...fresh] };
+      const all = [...doc.frames, ...fresh];
+      if (byName) all.sort((a, b) => byName(a.name, b.name));
+      return fresh.length === 0 ? doc : { ...doc, frames: all };
     },
   };
 }

@@ -42,7 +42,7 @@ export function takeHandFit(place: Place, { candidate, reason, verdict, onFrame 
 }
 
 /**
- * What the cell's outline, or the frame without one, says of a pose set by hand; null where nothing can be held against it.
+ * What the cell's outline, or the frame without one, says of a pose set by hand or brought in a file; null where nothing can be held against it.
  * The page works it out by itself: no unit of undo.
  */
 export function withHandVerdict(doc: Doc, place: Place, of: Posed, verdict: Verdict | null): Doc {

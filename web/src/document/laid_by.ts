@@ -34,3 +34,8 @@ export function isSurpassed({ outline, result, resultOf }: Cell): boolean {
 export function isSilhouette(outline: Outline | null): boolean {
   return outline?.laidBy === 'click';
 }
+
+/** Is it where a click led, and no pose is there? It is kept to be given to the other component or corrected, and is no finding to look at. */
+export function isDiscarded({ outline, result, resultOf }: Cell): boolean {
+  return isSilhouette(outline) && result?.kind === 'failed' && resultOf === outline;
+}

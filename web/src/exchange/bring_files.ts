@@ -22,6 +22,8 @@ export async function bringFiles(services: Services, doc: Doc): Promise<string[]
     else if (model) missing.push(model.name);
     if (libraryFile && !services.assets.get(libraryFile.sha256)) missing.push(libraryFile.name);
   }
+  // Whoever draws the models: a frame that stands still would stay without them until the next change.
+  services.store.show({});
   return missing;
 }
 

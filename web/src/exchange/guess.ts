@@ -1,4 +1,5 @@
 import type { State } from '../document/store';
+import type { Doc } from '../document/types';
 import { otherThan, type ComponentName } from '../terms/component';
 
 /**
@@ -16,6 +17,13 @@ export function componentFor(
   const selected = state.ui.component;
   const other = otherThan(selected);
   return isTaken(selected) && !isTaken(other) ? other : selected;
+}
+
+/** The component to work on: the selected one, unless nothing is known of its shape and of the other one's it is. */
+export function atHand({ components }: Doc, selected: ComponentName): ComponentName {
+  const isKnown = (component: ComponentName) => components[component].model !== null || components[component].libraryFile !== null;
+  const other = otherThan(selected);
+  return !isKnown(selected) && isKnown(other) ? other : selected;
 }
 
 function namedIn(name: string): ComponentName | null {

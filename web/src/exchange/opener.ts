@@ -1,5 +1,6 @@
 import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
+import { gapsIn } from './name_gaps';
 import { byName } from './name_order';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
@@ -12,7 +13,8 @@ import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { later } from '../texts/later';
 import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
-import { componentFor } from './guess';
+import { atHand, componentFor } from './guess';
+import { rowsOfFrames } from './pose_rows';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
 import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
@@ -32,6 +34,7 @@ interface Recognised extends Incoming {
  * others are opened all the same.
  */
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
+  const { store } = services;
   const before = cameraKey(services);
   const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
@@ -58,6 +61,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
+  store.show({ component: atHand(store.doc, store.ui.component) });
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
   askWhichPoses(services, poses);
@@ -318,13 +322,16 @@ async function openLibrary({ store, assets, checkLibrary }: Services, file: Inco
 
 async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
   const poses = studio.readPoses(await textOf(file));
-  const frames = store.doc.frames.length;
-  if (frames === 0) throw new Error(texts.said.posesNeedFrames);
+  const { frames } = store.doc;
+  const { unread } = store.ui;
+  if (frames.length === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);
-  store.perform(commands.loadPoses(component, poses, file.name));
-  const { asPoses, asPosesInOrder } = texts.said;
+  const rows = rowsOfFrames(poses.length, frames, unread);
+  if (!rows) throw new Error(texts.said.otherRows(poses.length, frames.length, unread));
+  store.perform(commands.loadPoses(component, rows.map((row) => poses[row] ?? null), file.name));
+  const { asPoses, asPosesWithout } = texts.said;
   const of = texts.component[component];
-  return poses.length === frames ? asPoses(file.name, of) : asPosesInOrder(file.name, of, poses.length, frames);
+  return poses.length === frames.length ? asPoses(file.name, of) : asPosesWithout(file.name, of, unread);
 }
 
 // --- Frames -------------------------------------------------------------------------------------------------------
@@ -344,11 +351,13 @@ async function openFrames(
     total: files.length,
     cancel: () => abort.abort(),
   };
+  const lost: string[] = [];
   await asJob(services.store, job, async (report) => {
     for (const [index, file] of files.entries()) {
       // What was decoded until then stays.
       if (abort.signal.aborted) break;
       const reportFrames = (done: number, total: number) => files.length === 1 && report(done, total);
+      const told = failed.length;
       await attempt(
         file,
         async () => {
@@ -359,24 +368,36 @@ async function openFrames(
         [],
         failed,
       );
+      if (failed.length > told) lost.push(file.name);
       if (files.length > 1 && ((index + 1) % TOLD === 0 || files.length < 4 * TOLD)) report(index + 1, files.length);
     }
   });
   const entries = decoded.map(({ entry }) => entry);
+  const isMended = entries.length > 0 && entries.every(({ name }) => services.store.ui.unread.includes(name));
+  keepUnread(services, lost, entries);
   if (entries.length === 0) return;
-  addToDocument(services, distinct(entries), files[0]?.path);
-  news.push(...repeatsAmong(decoded));
+  addToDocument(services, distinct(entries), isMended, files[0]?.path);
+  news.push(...repeatsAmong(decoded), ...gapsAmong(files));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], path = ''): void {
+/** Files of frames that could not be read, until they are opened mended: files of poses may have rows for them. */
+function keepUnread({ store }: Services, lost: readonly string[], came: readonly FrameEntry[]): void {
+  const before = store.doc.frames.length > 0 ? store.ui.unread : [];
+  const unread = [...before.filter((name) => !lost.includes(name)), ...lost].filter((name) => !came.some((entry) => entry.name === name));
+  store.show({ unread });
+}
+
+/** `isMended`: they could not be read when those beside them were opened, and have their places among them. */
+function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], isMended: boolean, path = ''): void {
   const first = store.doc.frames.length;
-  store.perform(commands.addFrames(entries));
+  const isByName = store.doc.frames.every(({ name }, at, all) => at === 0 || byName(all[at - 1]!.name, name) < 0);
+  store.perform(commands.addFrames(entries, isMended && isByName ? byName : undefined));
   // Frames that were here before may be of another film.
   const rate = first === 0 && entries.length > 1 ? (studio.statedGeometry(entries[0]!.id)?.rate ?? null) : null;
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
   if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: folderOf(path) ?? studyName(entries[0]!) }));
-  if (store.doc.frames.length > first) store.goTo(first);
+  if (store.doc.frames.length > first) store.goTo(isMended ? store.doc.frames.findIndex(({ id }) => id === entries[0]!.id) : first);
 }
 
 /** Pairs of frames that are named. */
@@ -389,6 +410,11 @@ function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
     return next && next.print === print && next.entry.width === width ? [[at + 1, at + 2] as const] : [];
   });
   return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
+}
+
+function gapsAmong(files: readonly Incoming[]): readonly string[] {
+  const gaps = gapsIn(files.map(({ name }) => name));
+  return gaps ? [texts.said.gaps(gaps.missing, gaps.between.slice(0, NAMED), Math.max(gaps.between.length - NAMED, 0))] : [];
 }
 
 /** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */

@@ -3,7 +3,7 @@ import { digestOf } from '../document/digest';
 import { checkState, markOf } from '../document/marks';
 import { filesOf } from '../document/named_files';
 import { methodOf } from '../document/session/table';
-import { type Cell, cellOf, type Doc } from '../document/types';
+import { type Cell, cellOf, type Doc, type Mark } from '../document/types';
 import type { JointNumbers } from '../results/joint_curves';
 import { faultsOf, inRuns, type PoseFaults } from '../results/joint_faults';
 import { doubtOf } from '../results/motion';
@@ -28,7 +28,7 @@ export async function publishedFilm(doc: Doc, numbers: JointNumbers): Promise<Pu
 function frameOf(doc: Doc, frameId: string, numbers: JointNumbers): PublishedFrame {
   const cells = COMPONENT_NAMES.map((component) => ({ component, cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
   const row = numbers.of.get(frameId);
-  const doubts = cells.flatMap(({ component, cell }) => doubtIn(component, cell));
+  const doubts = cells.flatMap(({ component, cell, mark }) => doubtIn(component, cell, mark));
   return {
     // A copy: what goes to a worker is not seen here again.
     numbers: row ? Float64Array.from(row) : null,
@@ -37,10 +37,10 @@ function frameOf(doc: Doc, frameId: string, numbers: JointNumbers): PublishedFra
   };
 }
 
-/** In the words of the command line's table of states. */
-function doubtIn(component: ComponentName, cell: Cell): string[] {
+/** In the words of the command line's table of states. What a person has accepted counts. */
+function doubtIn(component: ComponentName, cell: Cell, mark: Mark): string[] {
   if (cell.result?.kind === 'failed') return [`${component} no pose: ${cell.result.sentence}`];
-  const doubt = doubtOf(cell);
+  const doubt = checkState(cell, mark) === 'yes' ? null : doubtOf(cell);
   return doubt === null ? [] : [`${component} doubtful: ${doubt}`];
 }
 
@@ -79,6 +79,18 @@ function distortionOf({ distortion }: Doc): string {
   return distortion ? `corrected, of ${distortion.appliesTo}` : 'not corrected';
 }
 
+/** What the poses that a person accepted were doubtful by: they count, and whoever reads of them is to know. */
+function acceptedIn(doc: Doc): string[] {
+  return COMPONENT_NAMES.flatMap((component) => {
+    const accepted = doc.frames.flatMap(({ id }, index) => {
+      const [cell, mark] = [cellOf(doc, id, component), markOf(doc, { frameId: id, component })];
+      const doubt = checkState(cell, mark) === 'yes' ? doubtOf(cell) : null;
+      return doubt === null ? [] : [`frame ${index + 1} (${doubt})`];
+    });
+    return accepted.length > 0 ? [`Poses of the ${component} that were doubtful, and that a person accepted: ${accepted.join(', ')}.`] : [];
+  });
+}
+
 /** How the poses of a component were found, the most frequent first. */
 function methodsOf(doc: Doc, component: ComponentName): string {
   const counts = new Map<string, number>();
@@ -105,5 +117,5 @@ function remarksOf(doc: Doc): string[] {
     return frames.length > 0 ? [`${SAID[fault]}: ${inRuns(frames, Infinity)} (${frames.length} of ${doc.frames.length}).`] : [];
   });
   const assumed = COMPONENT_NAMES.filter((component) => !doc.components[component].axes && knownAxes(doc.components[component]));
-  return [...remarks, ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
+  return [...remarks, ...acceptedIn(doc), ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
 }

@@ -1,5 +1,9 @@
 import { auditTroubles } from '../document/session/audit';
 import { readSession, type Session } from '../document/session/session';
+import { isSilhouette } from '../document/laid_by';
+import type { Doc } from '../document/types';
+import { isReady } from '../results/steps';
+import type { ToolName } from '../terms/tool';
 import { texts } from '../texts/texts';
 import { bringFiles } from './bring_files';
 import { type Incoming, textOf } from './incoming';
@@ -15,11 +19,17 @@ export async function openSession(services: Services, file: Incoming, remarks: s
   store.perform({ label: texts.digests.openLabel, apply: () => session.doc });
   store.markSaved(store.doc);
   const { frameIndex, component, overlayOpacity } = session.view;
-  store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
+  store.show({ tool: toolFor(session.doc, store.ui.tool), component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null, unread: [] });
   store.goTo(frameIndex);
   if (session.audit) remarks.push(...(await auditTroubles(session.doc, session.audit)).map(texts.digests.trouble));
   if (missing.length > 0) remarks.push(texts.digests.missing(texts.listed(missing), missing.length));
   return `the session ${file.name}`;
+}
+
+/** Where clicks are all that there is, one click is the tool to go on with; whoever has traced, traces on. */
+export function toolFor(doc: Doc, tool: ToolName): ToolName {
+  const isTraced = doc.cells.entries().some(({ cell: { outline } }) => outline !== null && !isSilhouette(outline));
+  return tool === 'trace' && isReady(doc) && !isTraced ? 'one-click' : tool;
 }
 
 /** The included copies, each against the digest it is named by. */

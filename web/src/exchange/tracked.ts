@@ -2,7 +2,7 @@ import { strToU8, zipSync } from 'fflate';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
-import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, type Posed, verdictOf } from '../document/types';
 import { doubtOf } from '../results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -44,10 +44,18 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   const { result } = cell;
   if (result?.kind !== 'posed') return ['no pose', 'none', result?.sentence ?? ''];
   const doubt = doubtOf(cell);
+  if (doubt !== null && isChecked) return ['fixed', 'good', texts.follow.accepted(doubt)];
   if (doubt !== null) return ['doubtful', 'doubtful', doubt];
-  const isGiven = isChecked || result.from === 'hand' || result.from === 'file' || result.chosen !== 0;
-  const because = result.chosen === 0 ? verdictOf(result)?.because : texts.follow.fixed(null);
-  return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', because ?? ''];
+  const verdict = verdictOf(result);
+  // What nobody and nothing has held against the frame is not good yet.
+  if (result.chosen === 0 && !verdict && !isChecked) return [isGivenBy(result) ? 'fixed' : 'found', 'none', texts.follow.notJudged];
+  const isGiven = isChecked || isGivenBy(result) || result.chosen !== 0;
+  const because = (result.chosen === 0 && verdict?.because) || texts.follow.fixed(null);
+  return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', because];
+}
+
+function isGivenBy({ from }: Posed): boolean {
+  return from === 'hand' || from === 'file';
 }
 
 function numbersOf(candidate: Candidate | null): readonly (number | null)[] {

@@ -3,7 +3,7 @@ import type { Place } from '../document/command';
 import { inFilmOrder } from '../document/frame_index';
 import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
-import { type Cell, cellOf, chosenCandidate, isByHand, type Posed, type Verdict } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, type Posed, type Result, type Verdict } from '../document/types';
 import { cameraOf } from '../results/keys';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -21,7 +21,7 @@ interface Task {
 export const HAND_REST = 200;
 
 /**
- * Says how far poses that somebody set are to be trusted: by the closed outline of their cell, else by the frame. When the
+ * Says how far poses that somebody set, or brought in a file, are to be trusted: by the closed outline of their cell, else by the frame. When the
  * outline changes afterwards they are judged again. The pose itself stays, whatever is said of it.
  */
 export class HandJudge {
@@ -42,15 +42,16 @@ export class HandJudge {
   #consider(): void {
     clearTimeout(this.#timer);
     this.#pauseIsOver();
-    if (this.#busy || !this.#find()) return;
+    const task = this.#busy ? null : this.#find();
+    if (!task) return;
     this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => void this.#next(), HAND_REST);
+    this.#timer = setTimeout(() => void this.#next(), isOfFile(task.cell.result) ? 0 : HAND_REST);
   }
 
   #find(): Task | null {
     const { store } = this.#services;
     const shown = currentPlace(store.state);
-    const places = inFilmOrder(store.doc, placedByHand.in(store.doc.cells));
+    const places = inFilmOrder(store.doc, givenPoses.in(store.doc.cells));
     for (const { frameId, component } of shown ? [shown, ...places] : places) {
       const cell = cellOf(store.doc, frameId, component);
       if (this.#isUnjudged(cell) && store.ui.libraries[component].state === 'ready') return { place: { frameId, component }, cell };
@@ -60,7 +61,7 @@ export class HandJudge {
 
   #isUnjudged(cell: Cell): cell is Task['cell'] {
     const { result, resultOf, outline } = cell;
-    if (result?.kind !== 'posed' || result.from !== 'hand') return false;
+    if (!isGiven(result)) return false;
     const isOld = isClosed(resultOf) !== isClosed(outline) || (isClosed(outline) && resultOf !== outline);
     return (result.verdict === null || isOld) && this.#untold.get(result) !== outline;
   }
@@ -95,7 +96,16 @@ export class HandJudge {
   }
 }
 
-const placedByHand = new CellIndex<Cell>(({ cell }) => isByHand(cell.result));
+const givenPoses = new CellIndex<Cell>(({ cell }) => isGiven(cell.result));
+
+function isGiven(result: Result | null): result is Posed {
+  return result?.kind === 'posed' && (result.from === 'hand' || isOfFile(result));
+}
+
+/** No hand moves it. */
+function isOfFile({ from }: Posed): boolean {
+  return from === 'file';
+}
 
 function isClosed(outline: Cell['outline']): boolean {
   return outline?.closed ?? false;

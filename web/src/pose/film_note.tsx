@@ -1,8 +1,9 @@
 import type { Place } from '../document/command';
-import { filmNumbers, sameFilm } from '../document/film';
+import { filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { currentCell, currentPlace, type State } from '../document/store';
 import { cellOf, type Doc, type Posed } from '../document/types';
+import { filmMissed } from '../results/film';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
@@ -28,8 +29,9 @@ export function FilmNote({ state }: { state: State }) {
 function sentence(doc: Doc, place: Place | null, posed: Posed | null): string {
   const { known } = doc.film;
   const words = known ? texts.film.known(known.words) : texts.film.unknown;
-  if (!place || !posed?.onFrame || sameFilm(posed.onFrame.film, filmNumbers(doc, place.component))) return words;
+  const missed = place && posed?.onFrame ? filmMissed(posed.onFrame.film, filmNumbers(doc, place.component)) : null;
+  if (!place || !posed || !missed) return words;
   const isChecked = checkState(cellOf(doc, place.frameId, place.component), markOf(doc, place)) === 'yes';
-  if (posed.from === 'hand') return `${words} ${texts.film.before}`;
-  return isChecked ? `${words} ${texts.film.stays}` : words;
+  if (posed.from === 'hand') return `${words} ${texts.film.refined[missed]}`;
+  return isChecked ? `${words} ${texts.film.checked[missed]}` : words;
 }

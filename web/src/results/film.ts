@@ -124,12 +124,26 @@ export function isNews(before: KnownFilm | null, after: KnownFilm | null): boole
   });
 }
 
+/**
+ * What a pose that stays as it was refined does not know of its film: all of it, or constants that are others by now. The pose itself moves the
+ * estimate that it is one witness of, by less than a standard deviation.
+ */
+export function filmMissed(then: readonly number[] | null, now: readonly number[] | null): 'all' | 'others' | null {
+  if (!now) return null;
+  if (!then) return 'all';
+  const moved = Array.from({ length: CONSTANTS }, (_, at) => Math.abs(movedIn(then, now, at)) > deviationOf(now, at));
+  return moved.some(Boolean) ? 'others' : null;
+}
+
+/** Of the first the curvature itself is uncertain, of the others their logarithms. */
+function movedIn(then: readonly number[], now: readonly number[], at: number): number {
+  return at === 0 ? (now[at] ?? 0) - (then[at] ?? 0) : Math.log((now[at] ?? 1) / (then[at] ?? 1));
+}
+
 function isNewsOf(then: readonly number[], now: readonly number[]): boolean {
   return Array.from({ length: CONSTANTS }, (_, at) => {
     const [deviation, later] = [deviationOf(then, at), deviationOf(now, at)];
-    // Of the first the curvature itself is uncertain, of the others their logarithms.
-    const moved = at === 0 ? (now[at] ?? 0) - (then[at] ?? 0) : Math.log((now[at] ?? 1) / (then[at] ?? 1));
-    return Math.abs(moved) > MOVED * deviation || later < (1 - SURER) * deviation || later > (1 + SURER) * deviation;
+    return Math.abs(movedIn(then, now, at)) > MOVED * deviation || later < (1 - SURER) * deviation || later > (1 + SURER) * deviation;
   }).some(Boolean);
 }
 

@@ -12,6 +12,7 @@ export interface PoseFaults {
   readonly unrefined: readonly number[];
   /** A pose was read from a file, which does not say how it was found. */
   readonly unknown: readonly number[];
+  /** And nobody has accepted it. */
   readonly doubtful: readonly number[];
   /** Nobody has checked a pose as it is now. */
   readonly unchecked: readonly number[];
@@ -39,7 +40,7 @@ export function faultsOf(doc: Doc, components: readonly ComponentName[] = COMPON
     if (posed.length < components.length) return note('missing', true);
     note('unrefined', posed.some(({ candidate, result }) => candidate.residual === null && result.from !== 'file'));
     note('unknown', posed.some(({ result }) => result.from === 'file'));
-    note('doubtful', posed.some(({ cell }) => doubtOf(cell) !== null));
+    note('doubtful', posed.some(({ cell, mark }) => doubtOf(cell) !== null && checkState(cell, mark) !== 'yes'));
     note('unchecked', posed.some(({ cell, mark }) => checkState(cell, mark) !== 'yes'));
     return undefined;
   });

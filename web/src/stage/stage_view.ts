@@ -1,5 +1,5 @@
 import { currentCell, currentFrame, type State, type Store } from '../document/store';
-import { isSurpassed } from '../document/laid_by';
+import { isDiscarded, isSurpassed } from '../document/laid_by';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry, type GreyWindow, type Outline } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { TracingTools } from '../tracing/tracing_tools';
@@ -244,7 +244,8 @@ export class StageView {
     drawGhosts(context, state, view);
     for (const { component } of order) {
       const cell = cellOf(doc, frame.id, component);
-      if (cell.outline) this.#drawOutline(context, state, view, component, cell.outline, isSurpassed(cell), hit);
+      const isCorrected = component === active && handlesShown(state);
+      if (cell.outline && (isCorrected || !isDiscarded(cell))) this.#drawOutline(context, state, view, component, cell.outline, isSurpassed(cell), hit);
     }
   }
 

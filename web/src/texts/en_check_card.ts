@@ -13,7 +13,7 @@ export const check = {
   jointShort: (flexion: string, abduction: string, internal: string) => [`flex ${flexion}°`, `abd ${abduction}°`, `int ${internal}°`],
   noJoint: 'no joint angles: the other component, the side of the body or the axes are not known',
   accept: 'Accept',
-  acceptTitle: 'It is right: mark it as checked and go on to the next (Y)',
+  acceptTitle: 'It is right: mark it as checked, and go on to the next (Y). It counts in figure, report and tables; what made it doubtful stays told there.',
   absent: 'Not there',
   absentTitle: 'It is not in this frame: leave it without a pose and go on to the next (Y)',
   click: 'Click it',

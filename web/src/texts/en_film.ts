@@ -7,14 +7,20 @@ export const film = {
   /** `words` are the core's, without a full stop. */
   known: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`,
   unknown: 'The film is not known yet: depth may be off by many millimetres, and ± says so.',
-  stays: 'You checked this pose before that was known; it stays as it was.',
+  checked: {
+    all: 'You checked this pose before that was known; it stays as it was.',
+    others: 'You checked this pose when the film was known otherwise; it stays as it was.',
+  },
   alike: (px: number, other: number) => `its mirror image fits this film as well (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
   /** Why a pose comes first, once its mirror image was looked at. */
   clearer: (px: number, other: number) =>
     `On this film it leaves ${px.toFixed(2)} px, its mirror image ${Number.isFinite(other) ? `${other.toFixed(2)} px` : 'meets no edges'}.`,
   undecided: (px: number, other: number) => `Not decided: on this film it leaves ${px.toFixed(2)} px, its mirror image ${other.toFixed(2)} px.`,
   another: (px: number, other: number) => `another pose leaves less on this film (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
-  before: 'This pose was refined before that was known; it stays as it was.',
+  refined: {
+    all: 'This pose was refined before that was known; it stays as it was.',
+    others: 'This pose was refined when the film was known otherwise; it stays as it was.',
+  },
   about:
     'Where metal is thin, a frame darkens late; a logarithmic display and blur move its edges too. From the frames that have a pose the page learns by how much, so that depth from grey frames has no bias. Poses found on a frame follow; what you set or checked stays.',
   from: (profiles: number) => `From ${profiles} profiles across the outlines that have a pose.`,

@@ -22,7 +22,7 @@ export const first = {
     now: (component: string) => `Now the ${component}`,
     clickText: 'Anywhere inside it: outline and pose come by themselves.',
     preparing: (component: string) => `The views of the ${component} are being prepared: a click waits for them.`,
-    followText: (frames: number) => `${frames} ${frames === 1 ? 'cell is' : 'cells are'} yet to be followed; what you set stays as it is.`,
+    followText: (frames: number) => `${frames} ${frames === 1 ? 'cell is' : 'cells are'} yet to be followed; what you set by hand or checked stays as it is, what you clicked is refined with the film.`,
     shaky: (components: string) => `The pose of the ${components} is doubtful, and so would be what follows from it: look at it first.`,
     look: 'Doubtful: look at it',
     follow: 'Follow the film',

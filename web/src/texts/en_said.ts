@@ -32,10 +32,16 @@ export const said = {
   asModel: (name: string, component: string) => `${name} as the model of the ${component}`,
   asLibrary: (name: string, component: string) => `${name} as the library of the ${component}`,
   asPoses: (name: string, component: string) => `${name} as poses of the ${component}`,
-  asPosesInOrder: (name: string, component: string, rows: number, frames: number) =>
-    `${name} as poses of the ${component} (${rows} rows for ${frames} frames: in order, from the first)`,
+  asPosesWithout: (name: string, component: string, unread: readonly string[]) =>
+    `${name} as poses of the ${component} (it has rows for ${few(unread)} too, which could not be read: each row stays with its own frame)`,
+  otherRows: (rows: number, frames: number, unread: readonly string[]) =>
+    `${counted(rows, 'row')} of poses for ${counted(frames, 'frame')}: which belongs to which is not known, and none was taken. ${
+      unread.length > 0 ? `${few(unread)} could not be read: open ${unread.length === 1 ? 'it' : 'them'} mended, then the poses. ` : ''
+    }Open the frames that the poses are for, or write a row for each frame in the order of the strip, NaN six times where there is no pose.`,
   repeats: (pairs: readonly (readonly [number, number])[], more: number) =>
     `Frames ${pairs.map(([one, other]) => `${one} and ${other}`).join(', ')}${more > 0 ? ` and ${more} more pairs` : ''} are the same to the last pixel: was one written twice? They count as neighbours at even times.`,
+  gaps: (missing: number, between: readonly (readonly [string, string])[], more: number) =>
+    `${missing} of the numbered files ${missing === 1 ? 'is' : 'are'} missing, between ${between.map((pair) => pair.join(' and ')).join(', ')}${more > 0 ? ` and ${more} more` : ''}: the frames at hand are taken for neighbours at even times.`,
   theFrames: (count: number, name: string) => (count === 1 ? `the frame ${name}` : `${count} frames`),
   openingFrames: (files: number) => (files === 1 ? 'Opening frames' : `Opening ${files} files of frames`),
   frames: 'frames',
@@ -70,3 +76,15 @@ export const said = {
   workerStopped: (why: string) => `the worker stopped (${why}); what you have done is still here, try again`,
   notLoaded: 'it could not be loaded',
 };
+
+/** A few names, and how many more there are. */
+function few(names: readonly string[]): string {
+  const more = names.length - NAMED;
+  return `${names.slice(0, NAMED).join(', ')}${more > 0 ? ` and ${more} more` : ''}`;
+}
+
+const NAMED = 3;
+
+function counted(count: number, what: string): string {
+  return `${count} ${what}${count === 1 ? '' : 's'}`;
+}

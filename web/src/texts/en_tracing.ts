@@ -97,6 +97,8 @@ export const tracing = {
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',
     oneClickJob: (component: string, frame: number) => `${component} of frame ${frame} by one click`,
+    unitFirst: (component: string, model: string, sentence: string) =>
+      `Which unit is ${model} in? Its size is that of no ${component} in millimetres, so that none is found: answer in the panel of the ${component}, or under its name above, then click again. ${sentence}`,
     oneClickFound: (component: string, verdict: string, because: string) => `${component}: ${verdict}, ${ended(because)}`,
     percent: '%',
     flat: 'Nothing stands out from its surroundings here: point inside the implant, or move the level by hand.',

@@ -56,7 +56,7 @@ export class OneClick {
     this.#asked.set(key, asked);
     const before = this.#turn;
     const answered = this.#answer(asked, before).catch((error: unknown) => {
-      if (!(error instanceof Aborted)) store.sayAt(place, 'error', sentenceOf(error));
+      if (!(error instanceof Aborted)) store.sayAt(place, 'error', this.#withUnit(place.component, sentenceOf(error)));
     });
     this.#turn = Promise.all([before, answered]).then(() => undefined);
     await answered;
@@ -122,13 +122,22 @@ export class OneClick {
     };
   }
 
+  /** What failed, and first the question of the model's unit where nobody has answered it: a knee of a metre or a micrometre is found nowhere. */
+  #withUnit(component: ComponentName, sentence: string): string {
+    const { studio, store } = this.#services;
+    const { model } = store.doc.components[component];
+    const isAsked = model !== null && studio.suspectedUnitsOf(model.sha256).length > 0;
+    return isAsked ? texts.tracing.said.unitFirst(texts.component[component], model.name, sentence) : sentence;
+  }
+
   #take(answer: OneClickFacts, place: Place, key: string | null, film: OneClickInput['film']): void {
     const { store } = this.#services;
     const laidBy = answer.match ? 'click' : 'tool';
     const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [], laidBy }) as const);
     const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null };
     const before = store.doc;
-    store.perform(oneClickOutline(place, outlines, { ...answer, onFrame }, key));
+    const sentence = answer.match?.refusal == null ? answer.sentence : this.#withUnit(place.component, answer.sentence);
+    store.perform(oneClickOutline(place, outlines, { ...answer, sentence, onFrame }, key));
     store.show({ selectedPoint: null });
     const followed = gaveWay(before, store.doc, place) ? ` ${texts.follow.gaveWay}` : '';
     // What was refused stands in the cell and the bottom line as long as it does.

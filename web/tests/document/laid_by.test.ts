@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { addPoint, closeOutline, deletePoint, insertPoint, movePoint } from '../../src/document/commands';
 import * as history from '../../src/document/history';
-import { byTool } from '../../src/document/laid_by';
+import { byTool, isDiscarded } from '../../src/document/laid_by';
 import { addPoints, copyOutline, markAllKnown, nudgeOutline, setOutline } from '../../src/document/outlines';
 import type { Command } from '../../src/document/command';
 import { cellOf, EMPTY_DOC, type Outline } from '../../src/document/types';
@@ -50,5 +50,18 @@ describe('who laid an outline', () => {
     expect(laid(...draft(1), stretch)).toBe('tool');
     expect(laid(...draft(2), stretch)).toBe('mixed');
     expect(laid(stretch, stretch, addPoint(PLACE, point))).toBe('mixed');
+  });
+});
+
+describe('where a click led', () => {
+  const click: Outline = { ...TOOL, laidBy: 'click' };
+  const failed = { kind: 'failed', origin: 'k', sentence: 'Nothing fits.' } as const;
+
+  it('is no finding where no pose came of it, until somebody draws on', () => {
+    expect(isDiscarded({ outline: click, result: failed, resultOf: click })).toBe(true);
+    expect(isDiscarded({ outline: { ...click, laidBy: 'mixed' }, result: failed, resultOf: click })).toBe(false);
+    expect(isDiscarded({ outline: TOOL, result: failed, resultOf: TOOL })).toBe(false);
+    expect(isDiscarded({ outline: click, result: null, resultOf: null })).toBe(false);
+    expect(isDiscarded({ outline: null, result: failed, resultOf: null })).toBe(false);
   });
 });

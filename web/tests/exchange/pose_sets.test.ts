@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
+import { setModel } from '../../src/document/commands';
 import { Store } from '../../src/document/store';
-import { componentFor } from '../../src/exchange/guess';
+import { atHand, componentFor } from '../../src/exchange/guess';
 import { setsToAsk, sortedPoses } from '../../src/exchange/pose_sets';
 
 const file = (name: string, path?: string) => ({ name, blob: new Blob(), ...(path !== undefined && { path }) });
@@ -35,5 +36,17 @@ describe('which component a model is for', () => {
     expect(componentFor(state, { name: 'implant.stl' }, free, null)).toBe('femur');
     expect(componentFor(state, { name: 'tibia.stl' }, free, 'femur')).toBe('tibia');
     expect(componentFor(state, { name: 'tibia.stl', component: 'femur' }, free, 'tibia')).toBe('femur');
+  });
+});
+
+describe('which component is worked on after files were opened', () => {
+  it('is the selected one, unless the other one alone has a model', () => {
+    const store = new Store();
+    expect(atHand(store.doc, 'femur')).toBe('femur');
+    store.perform(setModel('tibia', { name: 'tray.stl', sha256: 't' }));
+    expect(atHand(store.doc, 'femur')).toBe('tibia');
+    expect(atHand(store.doc, 'tibia')).toBe('tibia');
+    store.perform(setModel('femur', { name: 'femur.stl', sha256: 'f' }));
+    expect(atHand(store.doc, 'femur')).toBe('femur');
   });
 });

@@ -5,6 +5,7 @@ import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed, Result } from '../../src/document/types';
 import { publishedFilm } from '../../src/exchange/publish';
+import { faultsOf } from '../../src/results/joint_faults';
 import type { JointNumbers } from '../../src/results/joint_curves';
 import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
 
@@ -44,6 +45,21 @@ describe('what is published', () => {
     expect(frames.map(({ doubt }) => doubt)).toEqual([null, 'tibia doubtful: its mirror image fits as well', 'femur no pose: It is not there.', null]);
     expect(frames.map(({ checked }) => checked)).toEqual([false, false, false, true]);
     expect(rate).toBe(15);
+  });
+
+  it('counts what a person has accepted, and tells what made it doubtful', async () => {
+    const store = film(2);
+    set(store, 1, 'tibia', posed({ verdict: { word: 'doubtful', because: 'its mirror image fits as well' } }));
+    const place = { frameId: 'f1', component: 'tibia' } as const;
+    store.perform(toggleChecked(place));
+    const { frames, remarks } = await publishedFilm(store.doc, numbers(2));
+    expect(frames[1]?.doubt).toBeNull();
+    expect(remarks).toContain('Poses of the tibia that were doubtful, and that a person accepted: frame 2 (its mirror image fits as well).');
+    expect(faultsOf(store.doc).doubtful).toEqual([]);
+    // An acceptance is of what was looked at.
+    set(store, 1, 'tibia', posed({ candidates: [{ ...bare({ ...POSE, x: 1 }), residual: 0.2 }], verdict: { word: 'doubtful', because: 'so' } }));
+    expect((await publishedFilm(store.doc, numbers(2))).frames[1]?.doubt).toBe('tibia doubtful: so');
+    expect(faultsOf(store.doc).doubtful).toEqual([2]);
   });
 
   it('says how poses were found, and which frames were not refined or checked', async () => {

@@ -61,6 +61,24 @@ describe('poses as the commands take them', () => {
     expect(state({ from: 'hand' })).toBe('fixed good');
     expect(state({ from: 'file' })).toBe('fixed good');
     expect(state({})).toBe('followed good');
+    expect(state({ from: 'file', verdict })).toBe('doubtful doubtful');
+    expect(state({ verdict }, true)).toBe('fixed good');
+    expect(state({ from: 'file', verdict: null })).toBe('fixed none');
+    expect(state({ from: 'file', verdict: null }, true)).toBe('fixed good');
+  });
+
+  it('give a reason with every verdict, also where nothing was held against the frame', () => {
+    const because = (change: Partial<Posed>, isChecked = false) => {
+      const store = film();
+      const place = { frameId: 'c', component: 'femur' } as const;
+      store.amend((doc) => withCell(doc, place, { outline: null, result: posed(UPPER, change), resultOf: null }));
+      if (isChecked) store.perform(toggleChecked(place));
+      return statesOf(store.doc).trimEnd().split('\r\n').at(-1)!.split(',')[4];
+    };
+    expect(because({ from: 'file', verdict: null })).toBe('it was not held against the frame');
+    expect(because({ from: 'file', verdict: null }, true)).toBe('a person fixed the pose');
+    expect(because({ from: 'file' })).toBe('it fits');
+    expect(because({ verdict: { word: 'doubtful', because: 'so' } }, true)).toBe('a person accepted it; it was doubtful: so');
   });
 
   it('say of a pose that a person took instead of the followed one what that leaves, not what was said of the other', () => {

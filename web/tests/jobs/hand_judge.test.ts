@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { addFrames, addPoint, closeOutline, setCalibration } from '../../src/document/commands';
+import { addFrames, addPoint, closeOutline, loadPoses, setCalibration } from '../../src/document/commands';
 import type { Place } from '../../src/document/command';
 import { setPoseByHand } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
@@ -68,6 +68,16 @@ describe('the judge of poses by hand', () => {
     expect(verdict()).toEqual({ word: 'doubtful', because: 'as judgeOnFrame says' });
     await rest();
     expect(asked.length).toBe(2);
+  });
+
+  it('asks the frame of poses that came in a file, at once, and keeps what it says', async () => {
+    const { store, asked, verdict } = bench();
+    store.perform(loadPoses('femur', [poseOf(7)], 'femur.jts'));
+    await vi.advanceTimersByTimeAsync(1);
+    expect(asked).toEqual([{ method: 'judgeOnFrame', pose: poseOf(7) }]);
+    expect(verdict()).toEqual({ word: 'doubtful', because: 'as judgeOnFrame says' });
+    await vi.advanceTimersByTimeAsync(10 * HAND_REST);
+    expect(asked.length).toBe(1);
   });
 
   it('says nothing where nothing can be held against the pose, and asks no more', async () => {

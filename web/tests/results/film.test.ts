@@ -4,7 +4,7 @@ import { toggleChecked } from '../../src/document/marks';
 import { NOTHING_STATED, cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { rotated } from '../../src/geometry/pose_motion';
-import { corrected, isNear, isNews, isSamePlace, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
+import { filmMissed, corrected, isNear, isNews, isSamePlace, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
 import { poseKey } from '../../src/results/keys';
 
 const GOOD: Verdict = { word: 'good', because: 'it fits' };
@@ -102,6 +102,24 @@ describe('news of the film', () => {
     expect(isNews(null, before)).toBe(true);
     expect(isNews(before, null)).toBe(true);
     expect(isNews(null, null)).toBe(false);
+  });
+});
+
+describe('what a pose that stays does not know of its film', () => {
+  /** Curvature, blur and attenuation with deviations of 0.001, and of 10 % of the others. */
+  const now = [0.01, 1.5, 0.2, 1e-6, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
+
+  it('is all of it, where nothing was known, and nothing where the estimate moved by less than it is sure of', () => {
+    expect(filmMissed(null, now)).toBe('all');
+    expect(filmMissed([0.0104, 1.55, 0.19], now)).toBeNull();
+    expect(filmMissed([0.0104, 1.55, 0.19], null)).toBeNull();
+  });
+
+  it('is other constants, where they lie further away, or were stated', () => {
+    expect(filmMissed([0.012, 1.5, 0.2], now)).toBe('others');
+    expect(filmMissed([0.01, 1.9, 0.2], now)).toBe('others');
+    expect(filmMissed([0.01, 1.51, 0.2], [0.01, 1.5, 0.2])).toBe('others');
+    expect(filmMissed([0.01, 1.5, 0.2], [0.01, 1.5, 0.2])).toBeNull();
   });
 });
 

@@ -27,11 +27,12 @@ function bench() {
       const report = (fraction: number) => onProgress?.({ fraction });
       asked.push({ input, report, answer: () => (resolve(facts), settle()) });
     });
-  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }) };
+  let units: readonly number[] = [];
+  const studio = { framePixels: () => ({ pixels: new Uint8Array(64), width: 8, height: 8, covered: new Uint32Array() }), suspectedUnitsOf: () => units };
   const oneClick = new OneClick({ store, studio } as never, { call } as never, { ready: async () => undefined });
   const click = (column: number) => void oneClick.ask([framePoint(column, 1)], { frameId: 'f', component: store.ui.component }, false);
   const outlineOf = (component: 'femur' | 'tibia') => cellOf(store.doc, 'f', component).outline;
-  return { store, asked, click, outlineOf, tell: (facts: Partial<OneClickFacts>) => void (told = facts) };
+  return { store, asked, click, outlineOf, tell: (facts: Partial<OneClickFacts>) => void (told = facts), suspect: (mm: number) => void (units = [mm]) };
 }
 
 describe('one click', () => {
@@ -59,6 +60,22 @@ describe('one click', () => {
     await settle();
     await asked[0]!.answer();
     expect(store.ui.notice?.text).toBe('Femur: Good, the edges lie on the outline.');
+  });
+
+  it('asks first for the unit of the model where that is open, as soon as nothing is found', async () => {
+    const failed = async (suspected: boolean) => {
+      const { store, asked, click, tell, suspect } = bench();
+      if (suspected) suspect(1000);
+      store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+      tell({ sentence: 'Nothing of its size is set off there.', match: { candidates: [], reason: null, decided: false, refusal: 'nothing', verdict: null } as never });
+      click(1);
+      await settle();
+      await asked[0]!.answer();
+      const { result } = cellOf(store.doc, 'f', 'femur');
+      return result?.kind === 'failed' ? result.sentence : null;
+    };
+    expect(await failed(false)).toBe('Nothing of its size is set off there.');
+    expect(await failed(true)).toMatch(/^Which unit is m in\? .* Nothing of its size is set off there\.$/);
   });
 
   it('into the same cell takes the place of the one before, whose late progress shows nothing', async () => {

@@ -38,9 +38,9 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
   return (
     <section class="joint-panel" aria-label={title}>
       <div class="joint-panel-head">
-        <h3>
+        <h2>
           <InWords full={title} short={short} /> <span class="unit">{unit}</span>
-        </h3>
+        </h2>
         <output class="joint-here" aria-label={words.here(title, shown + 1)}>
           {lines.map(({ points, ink }) => (
             <span key={ink} class={`joint-value ${ink}`}>

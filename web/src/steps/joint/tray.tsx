@@ -15,7 +15,7 @@ interface TrayProps {
 
 /** The tray from above, anterior up: the line between the lowest points in the frame at hand, and those of the film faintly behind it. */
 export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
-  const { of, tray: words } = later.curves;
+  const { tray: words } = later.curves;
   const tray = useMemo(() => trayOf(doc, numbers), [doc.frames, doc.side, numbers]);
   if (!tray) return null;
   const { border, lines, middle, reach } = tray;
@@ -24,14 +24,14 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
   return (
     <section class="joint-panel joint-tray" aria-label={words.title}>
       <div class="joint-panel-head">
-        <h3>
+        <h2>
           <InWords full={words.title} short={words.short} /> <span class="unit">mm</span>
-        </h3>
+        </h2>
       </div>
       <div class="tray-words" aria-hidden="true">
-        {(tray.medialSide > 0 ? [of.lateral, words.anterior, of.medial] : [of.medial, words.anterior, of.lateral]).map((word) => (
-          <span key={word}>{word}</span>
-        ))}
+        <SideWord side={tray.medialSide > 0 ? 'lateral' : 'medial'} />
+        <span>{words.anterior}</span>
+        <SideWord side={tray.medialSide > 0 ? 'medial' : 'lateral'} />
       </div>
       <svg preserveAspectRatio="xMidYMin" viewBox={`${low} ${high} ${2 * reach[0]} ${2 * reach[1]}`} role="img" aria-label={here ? words.here(shown + 1) : words.none(shown + 1)}>
         <polygon class="tray-border" points={border.map((point) => point.join()).join(' ')} />
@@ -45,6 +45,15 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
         )}
       </svg>
     </section>
+  );
+}
+
+function SideWord({ side }: { side: 'medial' | 'lateral' }) {
+  const { of, ofShort } = later.curves;
+  return (
+    <span>
+      <InWords full={of[side]} short={ofShort[side]} />
+    </span>
   );
 }
 
