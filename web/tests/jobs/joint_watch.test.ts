@@ -70,6 +70,21 @@ describe('joint watch', () => {
     await said(undefined, 'Femur: Good.');
   });
 
+  it('is not taken back by a film that was followed to no good pose, and is by good ones', async () => {
+    const { store, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    put('a', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(word('a', 'femur')).toBe('doubtful'));
+    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    const unsure: Posed = { ...posed(-1001), verdict: { word: 'doubtful', because: 'ambiguous' } };
+    put('a', 'tibia', unsure);
+    store.say('info', 'Followed 1 cell.', undefined, 'film');
+    await vi.waitFor(() => expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?'));
+    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    put('a', 'tibia', posed(-1001));
+    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBeNull());
+  });
+
   it('leaves what is worked out from poses to what they are by themselves', async () => {
     const { store, put, word } = bench();
     put('a', 'femur', posed(-1000));
