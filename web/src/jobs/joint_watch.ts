@@ -113,7 +113,11 @@ export class JointWatch {
     const first = told.find((sentence) => sentence !== null) ?? this.#toldBefore();
     this.#finding = first === null ? null : { models: this.#asked.models, sentence: first };
     if (store.ui.kneeDoubt !== first) store.show({ kneeDoubt: first });
-    if (first === null || this.#said === null || store.ui.notice?.of === 'film') this.#toSay = first;
+    const { notice } = store.ui;
+    // Its numbers change as more is known: it is not said twice in one line.
+    const isSaid = this.#said !== null && notice?.text.includes(asSentence(this.#said));
+    if (first === null || this.#said === null || (notice?.of === 'film' && !isSaid)) this.#toSay = first;
+    else if (isSaid) return;
     this.#said = first;
     this.#say();
   }

@@ -26,7 +26,7 @@ function bench() {
   const asked: Asked[] = [];
   const call = async (_: string, input: Asked) => {
     asked.push(input);
-    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? 'are the pictures mirrored?' : null));
+    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? (tibia.pose.z < -1040 ? 'are the pictures mirrored, by more?' : 'are the pictures mirrored?') : null));
   };
   const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }) };
   new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);
@@ -81,6 +81,9 @@ describe('joint watch', () => {
     store.say('info', 'Followed 1 cell.', undefined, 'film');
     await vi.waitFor(() => expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?'));
     expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    put('a', 'tibia', posed(-1050));
+    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBe('are the pictures mirrored, by more?'));
+    expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?');
     put('a', 'tibia', posed(-1001));
     await vi.waitFor(() => expect(store.ui.kneeDoubt).toBeNull());
   });
