@@ -55,6 +55,8 @@ export interface Ui {
   readonly proposal: Proposal | null;
   /** Files of poses between which a person has to choose; null while there are none. */
   readonly poseSets: PoseSets | null;
+  /** What the joint tells of the film as a whole, as that it is mirrored: a sentence without its full stop. */
+  readonly kneeDoubt: string | null;
   /** Names of files of frames that were opened and could not be read. */
   readonly unread: readonly string[];
   /** What the calibration helper has before it; null before it is first opened. */
@@ -160,6 +162,7 @@ const EMPTY_UI: Ui = {
   keeping: { state: 'nothing' },
   proposal: null,
   poseSets: null,
+  kneeDoubt: null,
   unread: [],
   measuring: null,
   update: null,

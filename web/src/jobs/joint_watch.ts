@@ -1,7 +1,7 @@
 import { knownAxes } from '../document/axes';
 import { withAsides } from '../document/asides';
 import { filmNumbers } from '../document/film';
-import { type Candidate, cellOf, chosenCandidate, type Doc } from '../document/types';
+import { type Candidate, cellOf, chosenCandidate, type Doc, verdictAlone } from '../document/types';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES } from '../terms/component';
 import { asSentence } from '../texts/sentences';
@@ -40,6 +40,8 @@ export class JointWatch {
   #flipped: Flipped = { of: '', known: 0, pairs: new Map() };
   #busy = false;
   #said: string | null = null;
+  /** What was told of these models last. */
+  #finding: { readonly models: string; readonly sentence: string } | null = null;
   /** What is still to be said: it does not take the place of what is being said, but for that a pose is good. */
   #toSay: string | null = null;
 
@@ -108,10 +110,23 @@ export class JointWatch {
     const { store } = this.#services;
     if (!alike(pairsOf(store.doc), this.#asked.pairs)) return;
     store.amend((doc) => withAsides(doc, told));
-    const first = told.find((sentence) => sentence !== null) ?? null;
-    if (first === null || this.#said === null) this.#toSay = first;
+    const first = told.find((sentence) => sentence !== null) ?? this.#toldBefore();
+    this.#finding = first === null ? null : { models: this.#asked.models, sentence: first };
+    if (store.ui.kneeDoubt !== first) store.show({ kneeDoubt: first });
+    const { notice } = store.ui;
+    // Its numbers change as more is known: it is not said twice in one line.
+    const isSaid = this.#said !== null && notice?.text.includes(asSentence(this.#said));
+    if (first === null || this.#said === null || (notice?.of === 'film' && !isSaid)) this.#toSay = first;
+    else if (isSaid) return;
     this.#said = first;
     this.#say();
+  }
+
+  /** A film that was followed to no good knee does not take back what its first poses told: nothing has shown another cause. */
+  #toldBefore(): string | null {
+    const { doc } = this.#services.store;
+    const isGood = (frameId: string) => COMPONENT_NAMES.every((component) => verdictAlone(cellOf(doc, frameId, component).result)?.word === 'good');
+    return this.#finding?.models === this.#asked.models && !doc.frames.some(({ id }) => isGood(id)) ? this.#finding.sentence : null;
   }
 
   #say(): void {
@@ -120,6 +135,8 @@ export class JointWatch {
     const sentence = this.#toSay;
     if (sentence === null || (notice !== null && notice.of === undefined)) return;
     this.#toSay = null;
+    // It stands there already.
+    if (notice?.text.endsWith(asSentence(sentence))) return;
     const before = notice?.of === 'film' ? `${notice.text} ` : '';
     store.say(notice?.kind ?? 'info', before + asSentence(sentence), undefined, notice?.of);
   }

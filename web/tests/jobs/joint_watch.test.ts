@@ -26,7 +26,7 @@ function bench() {
   const asked: Asked[] = [];
   const call = async (_: string, input: Asked) => {
     asked.push(input);
-    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? 'are the pictures mirrored?' : null));
+    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? (tibia.pose.z < -1040 ? 'are the pictures mirrored, by more?' : 'are the pictures mirrored?') : null));
   };
   const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }) };
   new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);
@@ -68,6 +68,24 @@ describe('joint watch', () => {
     await said('pose', 'Are the pictures mirrored?');
     await said('film', 'Femur: Good. Are the pictures mirrored?');
     await said(undefined, 'Femur: Good.');
+  });
+
+  it('is not taken back by a film that was followed to no good pose, and is by good ones', async () => {
+    const { store, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    put('a', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(word('a', 'femur')).toBe('doubtful'));
+    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    const unsure: Posed = { ...posed(-1001), verdict: { word: 'doubtful', because: 'ambiguous' } };
+    put('a', 'tibia', unsure);
+    store.say('info', 'Followed 1 cell.', undefined, 'film');
+    await vi.waitFor(() => expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?'));
+    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    put('a', 'tibia', posed(-1050));
+    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBe('are the pictures mirrored, by more?'));
+    expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?');
+    put('a', 'tibia', posed(-1001));
+    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBeNull());
   });
 
   it('leaves what is worked out from poses to what they are by themselves', async () => {

@@ -8,6 +8,7 @@ import { inRuns } from '../../results/joint_faults';
 import { jointTrusts, motionNeeds } from '../../results/motion';
 import { CONVENTIONS, DOCK, OVERS } from '../../terms/joint';
 import { later } from '../../texts/later';
+import { asSentence } from '../../texts/sentences';
 import { CurvePanel } from './curve_panel';
 import { DockSize } from './dock_size';
 import { Needs } from './needs';
@@ -91,22 +92,23 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
         ))}
         {!large && numbers.hasPlate && <Tray doc={doc} numbers={numbers} shown={hovered ?? state.ui.frameIndex} onPick={(index) => store.goTo(index)} />}
       </div>
-      <Wrong numbers={numbers} doc={doc} />
+      <Wrong numbers={numbers} doc={doc} kneeDoubt={state.ui.kneeDoubt} />
       <Legend numbers={numbers} doc={doc} hovered={hovered} />
     </>
   );
 }
 
 /** What no knee does, each once, and what is to be said of the film as a whole. */
-function Wrong({ numbers, doc }: { numbers: JointNumbers; doc: Doc }) {
+function Wrong({ numbers, doc, kneeDoubt }: { numbers: JointNumbers; doc: Doc; kneeDoubt: string | null }) {
   const words = later.curves;
   const told = useMemo(() => impossibilitiesOf(doc, numbers), [doc.frames, numbers]);
   const { of, impossible, waiting } = numbers;
   const trusts = jointTrusts(doc);
   const none = of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
-  if (told.length === 0 && !none) return null;
+  if (told.length === 0 && !none && kneeDoubt === null) return null;
   return (
     <div class="joint-wrong" role="status">
+      {kneeDoubt !== null && <p>{asSentence(kneeDoubt)}</p>}
       {none && <p>{words.allDoubtful(of.size)}</p>}
       {told.map(({ why, frames }) => (
         <p key={why}>{words.impossible(inRuns(frames), frames.length, why)}</p>
