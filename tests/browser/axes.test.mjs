@@ -93,7 +93,7 @@ pageTest('files with axes of their own', async (page, t) => {
   });
 
   await step(page, t, 'a study file that is wrong is told with its place, and the rest is opened', async () => {
-    await drop(page, file('study.toml', '[[component]]\nname = "femur"\naxes = "x y -z"\n'), await demoFile('tibia.jts'));
+    await drop(page, file('study.toml', '[[component]]\nname = "femur"\naxes = "x y -z"\n'), file('tibia.jts', 'JT_EULER_312\n0, 0, -900, 0, 0, 0\n'));
     await panel.waitForWords(page, /^study\.toml: the axes of the femur, "x y -z", are not three of x, -x/);
   });
 });

@@ -24,7 +24,7 @@ use super::run::Run;
 use super::sides::Margins;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, Study, camera_of_frames, read, read_calibration, size_taken, write_poses, write_text,
+    Film, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
 };
 use crate::finding::Stated;
 
@@ -102,9 +102,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     }
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
-    let taken = size_taken(&calibration, film.size());
-    for remark in doubts.into_iter().chain(taken) {
-        (request.listener)(Told::Remark(remark));
+    for doubt in doubts {
+        (request.listener)(Told::Remark(doubt));
     }
     let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)
