@@ -48,7 +48,7 @@ pub struct PlateCamera {
 }
 
 /// Centres of beads are better than this, pixels: what is more is distortion.
-pub const DISTORTED_PX: f64 = 0.3;
+const DISTORTED_PX: f64 = 0.3;
 
 impl PlateCamera {
     /// Whether the picture is distorted, so that the pitch is that of its middle at best: its correction comes first.

@@ -123,7 +123,7 @@ impl fmt::Display for CameraDoubt {
             } => write!(
                 f,
                 "frames of {width} x {height} pixels look as if they were cut out of larger ones, and the calibration names no frame size: they are taken \
-                 for the whole frame, {right:.0} x {down:.0} mm of the detector; if they were cut, move its principal point by as much"
+                 for the whole frame, {right:.0} x {down:.0} mm of the detector; if they were cut, its principal point (mm, x right, y up) counts from their own middle"
             ),
             Self::Unequal {
                 focal: [horizontal, vertical],
