@@ -14,12 +14,12 @@ mod owned;
 mod remarks;
 mod surface;
 pub mod symmetry;
+mod unit;
 
 #[cfg(feature = "alloc")]
 pub use coarse::{clustered, coarser};
 pub use model::{Model, OtherEdges};
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;
-#[cfg(feature = "alloc")]
-pub use remarks::{SuspectedUnit, suspected_unit};
 pub use surface::*;
+pub use unit::{SuspectedUnit, has_knee_size, suspected_unit};

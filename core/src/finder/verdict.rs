@@ -71,6 +71,11 @@ pub enum Doubt {
         /// How far, mm.
         mm: f64,
     },
+    /// The model has the size of no knee's component: every length may be of another unit.
+    NoKnee {
+        /// How wide it is, mm.
+        mm: f64,
+    },
     /// The silhouette has too few pixels to tell a pose.
     Small {
         /// Its size, pixels: the root of its area.
@@ -182,6 +187,11 @@ impl fmt::Display for Doubt {
                 "it would lie {} mm behind the detector: is the calibration of frames of another size, or the model in another unit?",
                 Decimal::new(mm, 0)
             ),
+            Self::NoKnee { mm } => write!(
+                f,
+                "the model is {} mm across, which no component of a knee is: is its file in another unit?",
+                Decimal::new(mm, 2)
+            ),
             Self::Small { px } => write!(
                 f,
                 "the silhouette is {} pixels across: too few to tell a pose",
@@ -286,6 +296,10 @@ fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {
 
 fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     let limit_px = limits.good_px.min(limits.good_part * fit.size_px);
+    if fit.no_knee_mm > 0.0 {
+        let mm = fit.no_knee_mm;
+        return Some(Doubt::NoKnee { mm });
+    }
     if fit.behind_mm > 0.0 {
         let mm = fit.behind_mm;
         return Some(Doubt::Behind { mm });
@@ -332,6 +346,23 @@ mod tests {
         };
         assert_eq!(judged(150.0), Verdict::Good);
         assert_eq!(judged(7.0), Verdict::Doubtful(Doubt::Small { px: 7.0 }));
+    }
+
+    #[test]
+    fn a_model_of_no_knees_size_is_never_good() {
+        let judged = |no_knee_mm: f64| {
+            let fit = Fit {
+                size_px: 150.0,
+                met: 1.0,
+                known: 1.0,
+                behind_mm: 20.0,
+                no_knee_mm,
+                ..Fit::default()
+            };
+            judge_fit(&fit, true, &Limits::USUAL).to_string()
+        };
+        assert!(judged(0.0).contains("behind the detector"));
+        assert!(judged(7.93).contains("7.93 mm across"), "{}", judged(7.93));
     }
 
     #[test]

@@ -41,6 +41,8 @@ pub enum Distrust {
     Joint(f64),
     /// It lies so far behind the detector, mm.
     Behind(f64),
+    /// The model is so wide, mm, as no component of a knee is.
+    NoKnee(f64),
     /// The model has the shape of this component, which is the other one.
     Shape(KneeComponent),
     /// Its joint with the femur would do this, which no knee does.
@@ -65,6 +67,7 @@ impl Distrust {
             Self::Undetermined(_) => "undetermined",
             Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
             Self::Shape(_) => "shape",
+            Self::NoKnee(_) => "unit",
             Self::Knee(_) | Self::Mirrored(_) => "joint",
         }
     }
@@ -129,6 +132,10 @@ impl fmt::Display for Distrust {
             Self::Behind(mm) => write!(
                 f,
                 "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
+            ),
+            Self::NoKnee(mm) => write!(
+                f,
+                "the model is {mm:.2} mm across, which no component of a knee is: is its file in another unit?"
             ),
             Self::Knee(what) => what.fmt(f),
             Self::Mirrored(beside) => beside.fmt(f),

@@ -5,47 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::owned::OwnedModel;
-use super::surface::Bounds;
-
-/// A unit of length that a file may have been written in instead of millimetres.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SuspectedUnit {
-    /// Metres.
-    Metres,
-    /// Centimetres or inches: the size alone does not tell these two apart.
-    CentimetresOrInches,
-}
-
-impl SuspectedUnit {
-    /// Millimetres in one of it: of what the size leaves open there are two.
-    #[must_use]
-    pub const fn mm(self) -> &'static [f64] {
-        match self {
-            Self::Metres => &[1000.0],
-            Self::CentimetresOrInches => &[10.0, 25.4],
-        }
-    }
-}
-
-/// Radii of the sphere round a component of a knee, mm, wide on both sides: trays of children and revision stems.
-const SMALLEST_MM: f64 = 15.0;
-const LARGEST_MM: f64 = 250.0;
-
-/// The unit that a component's size speaks for; `None` where it is that of a knee's in millimetres, or of none.
-#[must_use]
-pub fn suspected_unit(bounds: &Bounds) -> Option<SuspectedUnit> {
-    let is_knee = |mm_per_unit: f64| {
-        let radius = bounds.radius * mm_per_unit;
-        (SMALLEST_MM..LARGEST_MM).contains(&radius)
-    };
-    if is_knee(1.0) {
-        return None;
-    }
-    let units = [SuspectedUnit::Metres, SuspectedUnit::CentimetresOrInches];
-    units
-        .into_iter()
-        .find(|unit| unit.mm().iter().any(|&factor| is_knee(factor)))
-}
+use super::unit::{SuspectedUnit, has_knee_size, suspected_unit};
 
 impl OwnedModel {
     /// What a person should know of the model: what is unusual of its surface and what was done about it, and a size that
@@ -88,15 +48,18 @@ impl OwnedModel {
         }
         let bounds = self.as_model().bounds();
         let width = 2.0 * bounds.radius;
-        remarks.extend(suspected_unit(&bounds).map(|unit| {
-            let unit = match unit {
-                SuspectedUnit::Metres => "metres",
-                SuspectedUnit::CentimetresOrInches => "centimetres or inches",
+        if !has_knee_size(&bounds) {
+            let unit = match suspected_unit(&bounds) {
+                Some(SuspectedUnit::Metres) => ": is the file in metres?",
+                Some(SuspectedUnit::CentimetresOrInches) => {
+                    ": is the file in centimetres or inches?"
+                }
+                None => ": is it in the unit that was stated?",
             };
-            format!(
-                "the model is {width:.3} across, which is no knee component's size in millimetres: is the file in {unit}? Write it again in millimetres, or every length is wrong"
-            )
-        }));
+            remarks.push(format!(
+                "the model is {width:.3} across, which is no knee component's size in millimetres{unit} Write it again in millimetres, or every length is wrong"
+            ));
+        }
         remarks
     }
 }

@@ -56,6 +56,9 @@ pub const PLANES: usize = 3;
 /// components from 0.15. A plane too many costs a refinement, one that is missed may cost the
 /// right pose, so the limit is generous.
 pub const NEARLY_SYMMETRIC: f64 = 0.07;
+/// The same for a part that is nearly symmetric in no plane: a tray made for one side of the body, or a scan that lacks a part of it. Without
+/// any plane nobody would look at its mirror image, and no joint would be told by its axes.
+pub const ROUGHLY_SYMMETRIC: f64 = 2.0 * NEARLY_SYMMETRIC;
 
 /// Moments are nearly equal where the smaller is above this part of the larger. Femoral
 /// components have 0.73 and 0.79, and their axes lie 20 and 25 degrees off their plane.
@@ -85,7 +88,8 @@ impl SymmetryPlane {
     }
 }
 
-/// The planes in which a part is nearly symmetric, best first; empty for a part without any.
+/// The planes in which a part is nearly symmetric, best first; of a part that is so in none those in which it is
+/// [roughly](ROUGHLY_SYMMETRIC), and empty without any.
 ///
 /// Of more planes than [`PLANES`], as a prism or a body of revolution has them, the best is
 /// reported with those that are perpendicular to it and to each other, then others.
@@ -98,14 +102,22 @@ pub fn symmetry_planes(mesh: &Mesh<'_>) -> Vec<SymmetryPlane, PLANES> {
     let Some(samples) = Samples::new(mesh) else {
         return Vec::new();
     };
-    let limit = NEARLY_SYMMETRIC * samples.size;
-    let mut fitted = exact_fits(mesh, &samples, limit);
-    fitted.retain(|fit| fit.squared <= limit * limit);
-    fitted.sort_unstable_by(|a, b| a.squared.total_cmp(&b.squared));
+    let mut fitted = fits_within(NEARLY_SYMMETRIC * samples.size, mesh, &samples);
+    if fitted.is_empty() {
+        fitted = fits_within(ROUGHLY_SYMMETRIC * samples.size, mesh, &samples);
+    }
     chosen(&fitted)
         .iter()
         .map(|fit| described(fit, &samples))
         .collect()
+}
+
+/// Planes that deviate by no more than a limit, mm, by rising deviation.
+fn fits_within(limit: f64, mesh: &Mesh<'_>, samples: &Samples) -> Vec<Fitted, EXACT_FITS> {
+    let mut fitted = exact_fits(mesh, samples, limit);
+    fitted.retain(|fit| fit.squared <= limit * limit);
+    fitted.sort_unstable_by(|a, b| a.squared.total_cmp(&b.squared));
+    fitted
 }
 
 /// Directions to start from: the principal axes, then those between nearly equal ones.

@@ -5,7 +5,7 @@ use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, MaskError, Word, words_needed};
 use crate::math::sqrt;
-use crate::mesh::Model;
+use crate::mesh::{Model, has_knee_size};
 use crate::pose::Pose;
 
 /// A sample of the model's outline is met where the target's outline is nearer to it than this, pixels: three standard
@@ -34,6 +34,8 @@ pub struct Fit {
     /// How far behind the detector the model's middle lies, mm, where the camera knows its detector: a part cannot be there, so that
     /// the calibration is of other frames or the model in another unit.
     pub behind_mm: f64,
+    /// How wide the model is, mm, where that is no size of a knee's component, as of a file in another unit; 0 of others.
+    pub no_knee_mm: f64,
 }
 
 impl Fit {
@@ -78,6 +80,7 @@ pub(super) struct FitSums {
     beyond: f64,
     views: f64,
     behind_mm: f64,
+    no_knee_mm: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -118,7 +121,11 @@ impl FitSums {
 
     /// `pose` is that of the model in the camera's frame.
     pub(super) fn add_place(&mut self, model: &Model<'_>, camera: &Camera, pose: &Pose) {
-        let middle = pose.transform(&model.bounds().centre);
+        let bounds = model.bounds();
+        if !has_knee_size(&bounds) {
+            self.no_knee_mm = 2.0 * bounds.radius;
+        }
+        let middle = pose.transform(&bounds.centre);
         self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
         self.beyond += part_beyond(model, camera, pose);
     }
@@ -159,6 +166,7 @@ impl FitSums {
             },
             size_px: sqrt(part(self.area, self.views)),
             behind_mm: self.behind_mm,
+            no_knee_mm: self.no_knee_mm,
         }
     }
 }
