@@ -5,7 +5,7 @@
 //! (copyright 1993 Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is freely granted, provided that this
 //! notice is preserved).
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::angle::{high, polynomial};
 use super::root::sqrt;
@@ -70,11 +70,7 @@ const TURNS: [Turn; 5] = [
         [1.0, 0.5],
         [4.636_476_090_008_061e-1, 2.269_877_745_296_168_7e-17],
     ),
-    turn(
-        0x3ff3_0000,
-        [1.0, 1.0],
-        [7.853_981_633_974_483e-1, 3.061_616_997_868_383e-17],
-    ),
+    turn(0x3ff3_0000, [1.0, 1.0], [FRAC_PI_4, FRAC_PI_2_REST / 2.0]),
     turn(
         0x4003_8000,
         [1.0, 1.5],
@@ -116,7 +112,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     let is_steep = x == 0.0 || high(y) == INFINITE || high(x) + (64 << 20) < high(y);
     let angle = match y == 0.0 {
         true => 0.0,
-        false if high(x) == INFINITE && high(y) == INFINITE => PI / 4.0,
+        false if high(x) == INFINITE && high(y) == INFINITE => FRAC_PI_4,
         false if is_steep => return FRAC_PI_2.copysign(y),
         false => of_slope((y / x).abs()),
     };

@@ -43,7 +43,7 @@ fn digit_by_digit(x: f64) -> f64 {
         digit /= 2;
     }
     // One digit more than there is room for; no root lies in the middle between two numbers.
-    let rounded = (root + 1) / 2;
+    let rounded = root.div_ceil(2);
     let half = exponent.wrapping_sub(1023) as i32 >> 1;
     f64::from_bits((((1023 + half) as u64) << 52) + rounded - LEADING)
 }
