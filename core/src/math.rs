@@ -1,13 +1,19 @@
 //! Elementary functions and small algebra, the same to the last bit on every target.
 
 mod angle;
+mod arc;
 mod basic;
 mod decimal;
 mod definite;
 pub(crate) mod eigen;
+mod floor;
+mod root;
 
 pub use angle::sin_cos;
+pub use arc::atan2;
 pub use basic::*;
 pub use decimal::Decimal;
 pub(crate) use definite::solve_few;
 pub use definite::{inverse_spd, solve_spd};
+pub use floor::floor;
+pub use root::sqrt;

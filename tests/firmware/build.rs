@@ -62,4 +62,6 @@ fn link(package: &Path, is_arm: bool) {
     println!("cargo::rustc-link-search={}", out.display());
     println!("cargo::rustc-link-arg-bins=-T{script}");
     println!("cargo::rustc-link-arg-bins=--nmagic");
+    // Functions of the same instructions are kept once.
+    println!("cargo::rustc-link-arg-bins=--icf=all");
 }

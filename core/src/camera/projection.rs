@@ -39,18 +39,53 @@ pub struct Camera {
     detector: f64,
 }
 
-fn check(
-    name: &'static str,
-    value: f64,
-    rule: &'static str,
-    holds: impl Fn(f64) -> bool,
-) -> Result<f64, CameraError> {
-    if holds(value) {
-        Ok(value)
-    } else {
-        Err(CameraError::Value { name, value, rule })
+/// A number's name, least and greatest value, and their rule in words.
+type Range = (&'static str, [f64; 2], &'static str);
+
+#[cfg_attr(target_os = "none", inline(never))]
+fn check(ranges: &[Range], values: &[f64]) -> Result<(), CameraError> {
+    for (&(name, [least, most], rule), &value) in ranges.iter().zip(values) {
+        if !(least <= value && value <= most) {
+            return Err(CameraError::Value { name, value, rule });
+        }
     }
+    Ok(())
 }
+
+const SIDES: [f64; 2] = [1.0, MAX_SIDE as f64];
+const SIDES_RULE: &str = "1 to 16384 pixels";
+const FOCALS: [f64; 2] = [1.0, 1e6];
+const FOCALS_RULE: &str = "between 1 and 1 000 000 pixels";
+const POINTS: [f64; 2] = [-1e5, 1e5];
+const POINTS_RULE: &str = "within 100 000 pixels of the frame";
+
+/// What a camera is made of, and its focal lengths' ratio.
+const PARTS: [Range; 7] = [
+    ("frame width", SIDES, SIDES_RULE),
+    ("frame height", SIDES, SIDES_RULE),
+    ("horizontal focal length", FOCALS, FOCALS_RULE),
+    ("vertical focal length", FOCALS, FOCALS_RULE),
+    (
+        "ratio of the focal lengths",
+        [0.1, 10.0],
+        "between 0.1 and 10",
+    ),
+    ("principal point (column)", POINTS, POINTS_RULE),
+    ("principal point (row)", POINTS, POINTS_RULE),
+];
+
+const POSITIVE: [f64; 2] = [f64::from_bits(1), 1e5];
+const POSITIVE_RULE: &str = "a positive number of mm, at most 100 000";
+const ASIDE: [f64; 2] = [-1e5, 1e5];
+const ASIDE_RULE: &str = "a number of mm, at most 100 000 either way";
+
+/// The same of one by millimetres.
+const PARTS_MM: [Range; 4] = [
+    ("principal distance", POSITIVE, POSITIVE_RULE),
+    ("pixel pitch", POSITIVE, POSITIVE_RULE),
+    ("principal point x", ASIDE, ASIDE_RULE),
+    ("principal point y", ASIDE, ASIDE_RULE),
+];
 
 impl Camera {
     /// A camera for frames of `width` x `height` pixels, from its focal lengths and principal
@@ -64,21 +99,8 @@ impl Camera {
         [fx, fy]: [f64; 2],
         [cx, cy]: [f64; 2],
     ) -> Result<Self, CameraError> {
-        let side = "1 to 16384 pixels";
-        let possible = |v: f64| (1.0..=MAX_SIDE as f64).contains(&v);
-        check("frame width", width as f64, side, possible)?;
-        check("frame height", height as f64, side, possible)?;
-        let focal = "between 1 and 1 000 000 pixels";
-        let possible = |v: f64| (1.0..=1e6).contains(&v);
-        check("horizontal focal length", fx, focal, possible)?;
-        check("vertical focal length", fy, focal, possible)?;
-        let ratio = "between 0.1 and 10";
-        let possible = |v: f64| (0.1..=10.0).contains(&v);
-        check("ratio of the focal lengths", fx / fy, ratio, possible)?;
-        let point = "within 100 000 pixels of the frame";
-        let possible = |v: f64| v.abs() <= 1e5;
-        check("principal point (column)", cx, point, possible)?;
-        check("principal point (row)", cy, point, possible)?;
+        let sides = [width as f64, height as f64];
+        check(&PARTS, &[sides[0], sides[1], fx, fy, fx / fy, cx, cy])?;
         Ok(Self {
             width,
             height,
@@ -103,14 +125,7 @@ impl Camera {
         pitch: f64,
         offset: [f64; 2],
     ) -> Result<Self, CameraError> {
-        let rule = "a positive number of mm, at most 100 000";
-        let possible = |v: f64| v > 0.0 && v <= 1e5;
-        check("principal distance", distance, rule, possible)?;
-        check("pixel pitch", pitch, rule, possible)?;
-        let finite = |v: f64| v.abs() <= 1e5;
-        let rule = "a number of mm, at most 100 000 either way";
-        check("principal point x", offset[0], rule, finite)?;
-        check("principal point y", offset[1], rule, finite)?;
+        check(&PARTS_MM, &[distance, pitch, offset[0], offset[1]])?;
         let focal = distance / pitch;
         let centre = [
             width as f64 / 2.0 + offset[0] / pitch,
@@ -127,11 +142,10 @@ impl Camera {
     /// [`CameraError::Value`] where that is no part of this camera's frames, or so far from the principal point as no
     /// frame may be.
     pub fn cropped(&self, crop: &Crop) -> Result<Self, CameraError> {
-        let [width, height] = crop.frame();
-        let own = |side: usize| move |value: f64| value == side as f64;
+        let [width, height] = crop.frame().map(|side| [side as f64; 2]);
         let rule = "that of the frame which was cropped";
-        check("frame width", self.width as f64, rule, own(width))?;
-        check("frame height", self.height as f64, rule, own(height))?;
+        let frame = [("frame width", width, rule), ("frame height", height, rule)];
+        check(&frame, &[self.width as f64, self.height as f64])?;
         let centre = [
             self.cx - crop.columns().start as f64,
             self.cy - crop.rows().start as f64,

@@ -50,7 +50,7 @@ impl Sampler {
     pub(super) fn draw(&self, mask: &Mask<'_>, canonical: &mut MaskMut<'_>) {
         let size = canonical.width();
         if self.inverse.mark(mask, canonical).is_break() {
-            (0..size).for_each(|row| canonical.row_mut(row).fill(Word::MAX));
+            (0..size).for_each(|row| canonical.fill_span(row, 0, size as i64));
         }
         for row in 0..size {
             let start = self.left_of(size, row);

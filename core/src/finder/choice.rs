@@ -227,7 +227,7 @@ impl fmt::Display for Choice {
 pub fn choose(candidates: &[RivalPose], context: &ChoiceContext<'_>) -> Option<Choice> {
     let mut contenders = Contenders::of(candidates, context.counterpart.as_ref());
     let turn = |pose: &Pose| mean_turn_deg(pose, context.neighbours);
-    if let Some((chosen_deg, other_deg)) = contenders.narrow(turn, TURN_MARGIN_DEG) {
+    if let Some((chosen_deg, other_deg)) = contenders.narrow(&turn, TURN_MARGIN_DEG) {
         contenders.reason = Some(Reason::Turn {
             chosen_deg,
             other_deg,
@@ -260,7 +260,7 @@ impl<'a> Contenders<'a> {
         contenders.sort();
         contenders.rule_by_residual();
         let tilt = |pose: &Pose| counterpart.map_or(f64::NAN, |known| known.tilt_deg(pose));
-        if let Some((chosen_deg, other_deg)) = contenders.narrow(tilt, TILT_MARGIN_DEG) {
+        if let Some((chosen_deg, other_deg)) = contenders.narrow(&tilt, TILT_MARGIN_DEG) {
             contenders.reason = Some(Reason::Tilt {
                 chosen_deg,
                 other_deg,
@@ -325,10 +325,10 @@ impl<'a> Contenders<'a> {
 
     /// Rules out those whose angle is larger in magnitude than the smallest by `margin`. If there
     /// are any, the angles of the first that is left and of the best of those.
-    fn narrow(&mut self, angle: impl Fn(&Pose) -> f64, margin: f64) -> Option<(f64, f64)> {
+    fn narrow(&mut self, angle: &dyn Fn(&Pose) -> f64, margin: f64) -> Option<(f64, f64)> {
         let angle = |index: usize| {
             let pose = self.candidates.get(index).map(|candidate| &candidate.pose);
-            pose.map_or(f64::NAN, &angle)
+            pose.map_or(f64::NAN, angle)
         };
         let smaller = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
         let least = self.open.iter().map(|&k| angle(k)).min_by(smaller)?;

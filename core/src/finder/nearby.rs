@@ -26,7 +26,7 @@ pub const NEARBY: usize = 5;
 /// Step of the search for a start that is only roughly known, degrees.
 pub const WIDE_DEG: f64 = 8.0;
 /// Steps to each side.
-const REACH: i32 = 2;
+const STEPS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
 /// How often a drawing is moved onto the silhouette: twice where steps are wider than this, degrees.
 const MOVES: usize = 2;
@@ -63,9 +63,9 @@ pub fn nearby(
             scratch: memory.projected,
             drawn,
         };
-        for x in -REACH..=REACH {
-            for y in -REACH..=REACH {
-                let turn = [x, y].map(|steps| radians(step_deg * f64::from(steps)));
+        for x in &STEPS {
+            for y in &STEPS {
+                let turn = [x, y].map(|steps| radians(step_deg * steps));
                 let Some((unmatched, pose)) = search.moved([turn[0], turn[1], 0.0], start) else {
                     continue;
                 };

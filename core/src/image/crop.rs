@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::contour::Outline;
+use super::contour::{Outline, Point};
 use super::mask::{MAX_SIDE, Mask, MaskError, MaskMut, Word, words_needed};
 
 /// A rectangle of a frame, wherever it lies.
@@ -71,16 +71,17 @@ impl Crop {
         margin: usize,
         frame: [usize; 2],
     ) -> Result<Self, MaskError> {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [0.0f64; 2]);
-        for point in outline.points() {
-            for (axis, at) in [point.column, point.row].into_iter().enumerate() {
-                low[axis] = low[axis].min(at);
-                high[axis] = high[axis].max(at);
+        // Points lie inside of a frame, and cutting off rounds down.
+        let pixels = |of: fn(&Point) -> f64| {
+            let (mut low, mut high) = (u32::MAX, 0);
+            for point in outline.points() {
+                let pixel = of(point) as u32;
+                (low, high) = (low.min(pixel), high.max(pixel));
             }
-        }
-        // Points lie inside of a frame; cutting off rounds down.
-        let pixels = |axis: usize| low[axis] as usize..high[axis] as usize + 1;
-        Self::around(pixels(0), pixels(1), margin, frame)
+            low as usize..high as usize + 1
+        };
+        let columns = pixels(|point| point.column);
+        Self::around(columns, pixels(|point| point.row), margin, frame)
     }
 
     /// Columns.
@@ -171,7 +172,6 @@ impl Crop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::contour::Point;
     use proptest::prelude::*;
     use std::vec;
 

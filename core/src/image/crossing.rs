@@ -229,21 +229,20 @@ pub(super) fn orientation(a: Point, b: Point, c: Point) -> f64 {
     (b.column - a.column) * (c.row - a.row) - (b.row - a.row) * (c.column - a.column)
 }
 
-fn within_box(a: Point, b: Point, p: Point) -> bool {
+#[cfg_attr(target_os = "none", inline(never))]
+fn within_box([a, b, p]: &[Point; 3]) -> bool {
     let between = |x: f64, y: f64, v: f64| v >= x.min(y) && v <= x.max(y);
     between(a.column, b.column, p.column) && between(a.row, b.row, p.row)
 }
 
 /// Whether two segments have a point in common (Cormen et al., *Introduction to Algorithms*, 33.1).
 fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let (o1, o2) = (orientation(a, b, c), orientation(a, b, d));
-    let (o3, o4) = (orientation(c, d, a), orientation(c, d, b));
-    let straddles = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
-    (straddles(o1, o2) && straddles(o3, o4))
-        || (o1 == 0.0 && within_box(a, b, c))
-        || (o2 == 0.0 && within_box(a, b, d))
-        || (o3 == 0.0 && within_box(c, d, a))
-        || (o4 == 0.0 && within_box(c, d, b))
+    let corners = [[a, b, c], [a, b, d], [c, d, a], [c, d, b]];
+    let ways = corners.map(|[a, b, p]| orientation(a, b, p));
+    let straddles = |[x, y]: [f64; 2]| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
+    let mut ends = corners.iter().zip(&ways);
+    ways.as_chunks().0.iter().all(|&two| straddles(two))
+        || ends.any(|(corners, &way)| way == 0.0 && within_box(corners))
 }
 
 /// Whether two sides with a common vertex lie on each other, or one of them has no length.

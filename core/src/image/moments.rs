@@ -66,10 +66,11 @@ impl Moments {
     /// square pixels. The difference is taken in integers; only its result is rounded.
     #[must_use]
     pub fn covariance(&self) -> [f64; 3] {
-        let area = i128::from(self.area.max(1));
+        let area = self.area.max(1);
+        let squared = area as f64 * area as f64;
         let central = |second: u64, a: u64, b: u64| {
-            let scaled = i128::from(second) * area - i128::from(a) * i128::from(b);
-            scaled as f64 / (area as f64 * area as f64)
+            let products = [[second, area], [a, b]].map(|[a, b]| i128::from(a) * i128::from(b));
+            nearest(products[0] - products[1]) / squared
         };
         [
             central(self.column_column, self.column, self.column),
@@ -97,5 +98,44 @@ impl Mask<'_> {
 /// `n`, `n m / 2` and `n (3 m^2 + n^2 - 1) / 12`.
 fn run_sums(a: u64, b: u64) -> (u64, u64, u64) {
     let (n, m) = (b - a, (a + b).saturating_sub(1));
-    (n, n * m / 2, n * (3 * m * m + n * n).saturating_sub(1) / 12)
+    let twelve_times = n * (3 * m * m + n * n).saturating_sub(1);
+    (n, n * m / 2, third(twelve_times / 4))
+}
+
+/// Of a multiple of three: a product by the inverse of 3 modulo 2^64, as no microcontroller divides 64 bits.
+fn third(number: u64) -> u64 {
+    number.wrapping_mul(0xaaaa_aaaa_aaaa_aaab)
+}
+
+/// The nearest floating-point number.
+fn nearest(number: i128) -> f64 {
+    // To 64 bits, of which the lowest tells whether any behind it was set: rounding asks no more.
+    let (mut bits, mut exponent) = (number.unsigned_abs(), 0);
+    while bits >> u64::BITS != 0 {
+        bits = bits >> 1 | bits & 1;
+        exponent += 1;
+    }
+    let size = bits as u64 as f64 * f64::from_bits((1023 + exponent) << 52);
+    if number < 0 { -size } else { size }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    properties! {
+        #[test]
+        fn whole_numbers_are_rounded_as_the_language_does(number in any::<i128>(), shift in 0u32..128, below in 0u32..128, off in -2..=2i128) {
+            for number in [number >> shift, (number >> shift << below).wrapping_add(off), off] {
+                prop_assert_eq!(nearest(number).to_bits(), (number as f64).to_bits(), "{}", number);
+            }
+        }
+
+        #[test]
+        fn sums_of_a_run_are_those_of_its_pixels(a in 0u64..70_000, n in 0u64..300) {
+            let naive = (a..a + n).fold((0, 0, 0), |sum, at| (sum.0 + 1, sum.1 + at, sum.2 + at * at));
+            prop_assert_eq!(run_sums(a, a + n), naive);
+        }
+    }
 }

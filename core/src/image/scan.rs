@@ -204,12 +204,12 @@ impl Edge {
         let (whole, part, down) = (i64::from(whole), i64::from(part), i64::from(down));
         // An edge that crosses no row may begin below the one that is named.
         let centre = (rows.start as i64 * ONE + HALF - i64::from(self.from.row)).max(0);
-        let (beyond, rest) = quotient((part * centre) as u64, down as u64);
+        let (beyond, rest) = quotient((part * centre) as u64, self.down.max(1) as u32);
         // In units of 1/4096 pixel, and that many parts of one as `down` is.
-        let place = i64::from(self.from.column) - HALF + whole * centre + beyond as i64;
+        let place = i64::from(self.from.column) - HALF + whole * centre + i64::from(beyond);
         let mut column = (place + i64::from(rest > 0) + ONE - 1) >> PLACES;
         // How far the edge is from that centre, -1 to 0 columns, in such parts.
-        let mut left = (place - column * ONE) * down + rest as i64;
+        let mut left = (place - column * ONE) * down + i64::from(rest);
         rows.map(move |row| {
             let own = column;
             (column, left) = (column + whole, left + part * ONE);
@@ -221,12 +221,31 @@ impl Edge {
     }
 }
 
-/// Quotient and remainder. Most numbers have 32 bits: those of 64 a microcontroller divides bit by bit.
-fn quotient(number: u64, by: u64) -> (u64, u64) {
-    match (u32::try_from(number), u32::try_from(by)) {
-        (Ok(number), Ok(by)) => (u64::from(number / by.max(1)), u64::from(number % by.max(1))),
-        _ => (number / by.max(1), number % by.max(1)),
+/// Quotient, of 32 bits, and remainder of a number by one of 31. Most numbers have 32 bits themselves: those of 64 no
+/// microcontroller divides, and the function that does takes a kilobyte.
+fn quotient(number: u64, by: u32) -> (u32, u32) {
+    let by = by.max(1);
+    match u32::try_from(number) {
+        Ok(number) => (number / by, number % by),
+        Err(_) if cfg!(target_os = "none") => bit_by_bit(number, by),
+        Err(_) => {
+            let by = u64::from(by);
+            ((number / by) as u32, (number % by) as u32)
+        }
     }
+}
+
+fn bit_by_bit(number: u64, by: u32) -> (u32, u32) {
+    let (mut rest, mut bits) = ((number >> 32) as u32, number as u32);
+    for _ in 0..u32::BITS {
+        rest = rest << 1 | bits >> 31;
+        bits <<= 1;
+        if rest >= by {
+            rest -= by;
+            bits |= 1;
+        }
+    }
+    (bits, rest)
 }
 
 /// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
@@ -314,6 +333,18 @@ mod tests {
     }
 
     properties! {
+        #[test]
+        fn numbers_of_64_bits_are_divided_bit_by_bit(
+            by in 1u32..1 << 31,
+            quotient in any::<u32>(),
+            rest in any::<prop::sample::Index>(),
+        ) {
+            let rest = rest.index(by as usize) as u32;
+            let number = u64::from(by) * u64::from(quotient) + u64::from(rest);
+            prop_assert_eq!(bit_by_bit(number, by), (quotient, rest));
+            prop_assert_eq!(super::quotient(number, by), (quotient, rest));
+        }
+
         #[test]
         fn columns_are_exact_quotients(
             a in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),

@@ -14,7 +14,7 @@ use core::ops::Range;
 
 use super::error::LibraryError;
 use super::runs::{Band, are_runs_with};
-use super::sketch::{BLOCK, BlockRow, STRIDE, blocks};
+use super::sketch::{BLOCK, BlockRow, STRIDE, Sketch, blocks};
 use super::wire::{Reader, SHORT_RECORD_BYTES, read_short_record};
 use super::{LibraryInfo, ViewRecord};
 
@@ -81,44 +81,36 @@ impl<'a> Sketches<'a> {
         view: usize,
         info: &LibraryInfo,
         counts: &'c mut BlockRow,
-    ) -> Comparison<'a, 'c, impl Iterator<Item = (usize, u8)> + use<'a>> {
+    ) -> Comparison<'a, 'c> {
+        let places = self.places.as_chunks().0;
         let (sketch, padding) = self
             .of(view)
-            .split_at_checked(self.places.len() / 2)
+            .split_at_checked(places.len())
             .unwrap_or_default();
-        let mut kept = self.places().zip(sketch.iter().copied());
         Comparison {
             common: self.common,
-            next: kept.next().unwrap_or(NOT_KEPT),
-            kept,
+            sketch: Sketch::of(places, sketch),
             across: (info.canonical.size() / BLOCK).max(1),
             row: 0,
-            block: 0,
             counts,
             is_same: padding.iter().all(|&padding| padding == 0),
         }
     }
 }
 
-/// No block has this number.
-const NOT_KEPT: (usize, u8) = (usize::MAX, 0);
-
 /// The sketch of a view beside its runs, block row by block row.
-struct Comparison<'a, 'c, K: Iterator<Item = (usize, u8)>> {
+struct Comparison<'a, 'c> {
     /// What is left of the common blocks.
     common: &'a [u8],
-    /// The next block that the sketch has and what it has of it, and those after it.
-    next: (usize, u8),
-    kept: K,
+    sketch: Sketch<'a>,
     across: usize,
-    /// The block row that runs are gathered for, and the first block of it.
+    /// The block row that runs are gathered for.
     row: usize,
-    block: usize,
     counts: &'c mut BlockRow,
     is_same: bool,
 }
 
-impl<K: Iterator<Item = (usize, u8)>> Comparison<'_, '_, K> {
+impl Comparison<'_, '_> {
     /// Adds a band; block rows above it are whole by then. Gives where the run ends that goes furthest.
     fn add(&mut self, band: Band<'_>) -> usize {
         let (mut rest, mut furthest) = (Some(band), 0);
@@ -140,20 +132,8 @@ impl<K: Iterator<Item = (usize, u8)>> Comparison<'_, '_, K> {
             return;
         };
         self.common = rest;
-        let counts = self.counts.take(self.across);
-        let ((mut block, mut expected), mut differs) = (self.next, 0);
-        // What the sketch has of a block is nothing that all views have in common.
-        while let Some(count) = counts.get_mut(block.wrapping_sub(self.block)) {
-            differs |= core::mem::take(count) ^ expected;
-            (block, expected) = self.kept.next().unwrap_or(NOT_KEPT);
-        }
-        self.next = (block, expected);
-        for (count, common) in counts.iter().zip(common) {
-            differs |= count ^ common;
-        }
-        self.is_same &= differs == 0 && counts.len() == common.len();
+        self.is_same &= self.counts.is(common, &mut self.sketch);
         self.row += 1;
-        self.block += self.across;
     }
 
     /// Whether all of it is the same.
@@ -161,7 +141,7 @@ impl<K: Iterator<Item = (usize, u8)>> Comparison<'_, '_, K> {
         while self.is_same && !self.common.is_empty() {
             self.compare();
         }
-        self.is_same && self.next == NOT_KEPT
+        self.is_same && self.sketch.is_over()
     }
 }
 

@@ -34,8 +34,6 @@ pub(crate) fn at_most_255(count: u16) -> u8 {
 pub(super) struct BlockRow {
     /// For each block the columns at which runs begin in it less those at which runs end, and as many times [`TURN`]; modulo 2^32.
     turns: [u32; PLACES],
-    /// What was taken last.
-    counts: [u8; WIDEST],
 }
 
 /// More than blocks across: where a run ends that is none is told afterwards, and until then its number is cut off.
@@ -46,28 +44,45 @@ const TURN: u32 = 1 << 16;
 
 impl BlockRow {
     /// Nothing is set.
-    pub(super) const EMPTY: Self = Self {
-        turns: [0; PLACES],
-        counts: [0; WIDEST],
-    };
+    pub(super) const EMPTY: Self = Self { turns: [0; PLACES] };
 
     /// Adds the pixels of rows within the row of blocks and gives where the run ends that goes furthest.
     #[cfg_attr(target_os = "none", inline(never))]
     pub(super) fn add(&mut self, band: &Band<'_>) -> usize {
         let mut furthest = TURN;
-        for (_, row) in band.rows() {
-            let mut at = TURN;
-            for &[gap, pixels] in row {
-                at += u32::from(gap);
-                let begun = self.at(at);
-                *begun = begun.wrapping_add(at);
-                at += u32::from(pixels);
-                let ended = self.at(at);
-                *ended = ended.wrapping_sub(at);
+        // Most rows have one run or two, and their number is known here: for small code no loop is unrolled.
+        match band.per_row {
+            1 => {
+                for &run in band.pieces {
+                    furthest = furthest.max(self.add_run(TURN, run));
+                }
             }
-            furthest = furthest.max(at);
+            2 => {
+                for &[first, second] in band.pieces.as_chunks().0 {
+                    let between = self.add_run(TURN, first);
+                    furthest = furthest.max(self.add_run(between, second));
+                }
+            }
+            _ => {
+                for (_, row) in band.rows() {
+                    let end = row.iter().fold(TURN, |at, &run| self.add_run(at, run));
+                    furthest = furthest.max(end);
+                }
+            }
         }
         (furthest - TURN) as usize
+    }
+
+    /// Adds the run behind a place of a row, and gives where it ends.
+    #[inline(always)]
+    fn add_run(&mut self, at: u32, [gap, pixels]: [u8; 2]) -> u32 {
+        let start = at + u32::from(gap);
+        let begun = self.at(start);
+        *begun = begun.wrapping_add(start);
+        let end = start + u32::from(pixels);
+        let ended = self.at(end);
+        *ended = ended.wrapping_sub(end);
+        end
     }
 
     #[inline(always)]
@@ -75,12 +90,20 @@ impl BlockRow {
         &mut self.turns[at as usize / BLOCK % PLACES]
     }
 
-    /// The set pixels of the first `across` blocks, left to right, at most 255; and nothing is set afterwards.
-    pub(super) fn take(&mut self, across: usize) -> &mut [u8] {
-        let counts = self.counts.get_mut(..across).unwrap_or_default();
+    /// Whether the set pixels of blocks, at most 255, are those of a sketch, or where it has none those that all views have in
+    /// `common`; nothing is set afterwards.
+    pub(super) fn is(&mut self, common: &[u8], sketch: &mut Sketch<'_>) -> bool {
+        let Sketch { places, counts, .. } = *sketch;
+        let place = |at: usize| {
+            places
+                .get(at)
+                .map_or(NOWHERE, |&two| u16::from_le_bytes(two).into())
+        };
+        let (mut at, mut block) = (sketch.at, sketch.block);
+        let mut next = place(at);
         // How many runs go on from the block before, and where the block ends.
-        let (mut open, mut end) = (0u32, TURN);
-        for (count, turns) in counts.iter_mut().zip(&mut self.turns) {
+        let (mut open, mut end, mut differs) = (0u32, TURN, 0);
+        for (&common, turns) in common.iter().zip(&mut self.turns) {
             let sum = core::mem::take(turns);
             // A negative sum of columns has borrowed one.
             let begun = ((sum.wrapping_add(TURN / 2) as i32) >> 16) as u32;
@@ -89,13 +112,54 @@ impl BlockRow {
             open = open.wrapping_add(begun);
             // Each that begins has the pixels from its column to the block's end.
             let pixels = before.wrapping_add(begun.wrapping_mul(end));
-            *count = at_most_255(pixels.wrapping_sub(sum) as u16);
+            let count = at_most_255(pixels.wrapping_sub(sum) as u16);
+            let mut expected = common;
+            if block == next {
+                // What the sketch has of a block is nothing that all views have in common.
+                differs |= common;
+                expected = counts.get(at).copied().unwrap_or(0);
+                at += 1;
+                next = place(at);
+            }
+            differs |= count ^ expected;
+            block += 1;
         }
+        (sketch.at, sketch.block) = (at, block);
         // Runs that end with the frame end there.
-        if let Some(beyond) = self.turns.get_mut(across) {
+        if let Some(beyond) = self.turns.get_mut(common.len()) {
             *beyond = 0;
         }
-        counts
+        differs == 0 && common.len() <= WIDEST
+    }
+}
+
+/// What a sketch has of the blocks that follow.
+#[derive(Clone, Copy)]
+pub(super) struct Sketch<'a> {
+    places: &'a [[u8; 2]],
+    counts: &'a [u8],
+    /// The first of its counts that is of them, and the first of them.
+    at: usize,
+    block: u32,
+}
+
+/// No block has this number.
+const NOWHERE: u32 = u32::MAX;
+
+impl<'a> Sketch<'a> {
+    /// Of blocks at these places, which rise, all counts.
+    pub(super) fn of(places: &'a [[u8; 2]], counts: &'a [u8]) -> Self {
+        Self {
+            places,
+            counts,
+            at: 0,
+            block: 0,
+        }
+    }
+
+    /// Whether all of it was compared.
+    pub(super) fn is_over(&self) -> bool {
+        self.at == self.places.len()
     }
 }
 
@@ -159,13 +223,37 @@ mod tests {
         #[test]
         fn runs_fill_the_blocks_that_their_pixels_are_in(
             (across, per_row, (pieces, counts)) in (1..=WIDEST, 1..6usize)
-                .prop_flat_map(|(across, per_row)| (Just(across), Just(per_row), rows(across, per_row)))
+                .prop_flat_map(|(across, per_row)| (Just(across), Just(per_row), rows(across, per_row))),
+            is_sketched in proptest::collection::vec(any::<bool>(), WIDEST),
+            other in any::<prop::sample::Index>(),
+            bit in 0u32..8,
         ) {
-            let mut row_of_blocks = BlockRow::EMPTY;
-            row_of_blocks.add(&Band { first_row: 0, per_row, pieces: &pieces });
             let naive: Vec<u8> = counts.into_iter().map(at_most_255).collect();
-            prop_assert_eq!(&*row_of_blocks.take(across), &naive[..]);
-            prop_assert_eq!(&*row_of_blocks.take(across), &std::vec![0; across][..]);
+            let places: Vec<usize> = (0..across).filter(|&block| is_sketched[block]).collect();
+            let mut sketch: Vec<u8> = places.iter().map(|&block| naive[block]).collect();
+            let numbers: Vec<[u8; 2]> = places.iter().map(|&block| (block as u16).to_le_bytes()).collect();
+            let mut common = naive;
+            places.iter().for_each(|&block| common[block] = 0);
+            let mut row_of_blocks = BlockRow::EMPTY;
+            let mut is_same = |common: &[u8], sketch: &[u8]| {
+                row_of_blocks.add(&Band { first_row: 0, per_row, pieces: &pieces });
+                let mut said = Sketch::of(&numbers, sketch);
+                let is_same = row_of_blocks.is(common, &mut said);
+                assert!(said.is_over());
+                // Nothing is left.
+                assert!(row_of_blocks.is(&std::vec![0; across], &mut Sketch::of(&[], &[])));
+                is_same
+            };
+            prop_assert!(is_same(&common, &sketch));
+            // What all views have in common is nowhere else.
+            let other = other.index(across);
+            common[other] ^= 1u8 << bit;
+            prop_assert!(!is_same(&common, &sketch));
+            common[other] ^= 1u8 << bit;
+            if let Ok(own) = places.binary_search(&other) {
+                sketch[own] ^= 1u8 << bit;
+                prop_assert!(!is_same(&common, &sketch));
+            }
         }
     }
 }

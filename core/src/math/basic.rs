@@ -6,6 +6,9 @@
 //! that is reported.
 
 use super::angle::sin_cos;
+use super::arc::{arc_sine, atan2};
+use super::floor::floor;
+use super::root::sqrt;
 
 /// A 3 x 3 matrix, row by row.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -14,13 +17,6 @@ pub type Vector3 = [f64; 3];
 
 /// The identity.
 pub(crate) const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-/// Square root.
-#[must_use]
-#[cfg_attr(target_os = "none", inline(never))]
-pub fn sqrt(x: f64) -> f64 {
-    libm::sqrt(x)
-}
 
 /// Whether the processor divides numbers of 32 bits itself, and has a square root for no safe program.
 const DIVIDES: bool = cfg!(all(target_arch = "arm", target_abi = "eabihf"));
@@ -56,22 +52,10 @@ pub(crate) fn ln_1p_single(x: f32) -> f32 {
     libm::log1pf(x)
 }
 
-/// Angle of the vector `(x, y)` in radians, -pi to pi.
-#[must_use]
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
-}
-
 /// Arc sine in radians; the argument is clamped to -1..1, so rounding cannot make a NaN.
 #[must_use]
 pub(crate) fn asin(x: f64) -> f64 {
-    libm::asin(within(x, -1.0, 1.0))
-}
-
-/// Largest whole number not above `x`.
-#[must_use]
-pub fn floor(x: f64) -> f64 {
-    libm::floor(x)
+    arc_sine(within(x, -1.0, 1.0))
 }
 
 /// Exponential function.

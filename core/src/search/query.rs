@@ -149,9 +149,11 @@ impl<'m> Query<'m> {
     ) -> u32 {
         let blocks = self.blocks[usize::from(reversed)];
         let mut base = (kernels.gap)([blocks; 2], [common; 2]);
-        out.fill(0);
-        for (out, place) in out.iter_mut().zip(places) {
-            *out = blocks.get(place).copied().unwrap_or(0);
+        let mut places = places;
+        for out in out {
+            // Nothing behind the last.
+            let own = places.next().and_then(|place| blocks.get(place));
+            *out = own.copied().unwrap_or(0);
             // There the common block is 0, and the gap was the silhouette's own count.
             base -= u32::from(*out);
         }
@@ -273,6 +275,9 @@ fn first_of(words: usize, mask: &[Word]) -> Result<&[Word], TooLittleMemory> {
     Ok(mask.get(..words).unwrap_or_default())
 }
 
+/// A one in each of eight lanes of a number.
+const ONES: u64 = 0x0101_0101_0101_0101;
+
 /// Writes how many bits are set before each bit, modulo 256, and once more for all.
 fn count_before(words: impl Iterator<Item = Word>, out: &mut [u8]) {
     let Some((first, rest)) = out.split_first_mut() else {
@@ -282,7 +287,12 @@ fn count_before(words: impl Iterator<Item = Word>, out: &mut [u8]) {
     let mut count = 0u8;
     for (word, out) in words.zip(rest.as_chunks_mut::<WORD_BITS>().0) {
         if word == 0 {
-            out.fill(count);
+            // Eight at a time, lest they become a call: a function for bytes is linked for nothing else.
+            let same = (ONES * u64::from(count)).to_le_bytes();
+            out.as_chunks_mut()
+                .0
+                .iter_mut()
+                .for_each(|eight| *eight = same);
             continue;
         }
         for (eight, byte) in out
@@ -300,7 +310,6 @@ fn count_before(words: impl Iterator<Item = Word>, out: &mut [u8]) {
 /// `count` plus the bits set up to and including each bit of a byte, modulo 256, in eight lanes of
 /// one number.
 fn counts_up_to(byte: u8, count: u8) -> [u8; 8] {
-    const ONES: u64 = 0x0101_0101_0101_0101;
     const TOPS: u64 = ONES << 7;
     // Lane k keeps bit k; adding 0x80 minus that bit carries it to the lane's top.
     let bits = (ONES * u64::from(byte)) & 0x8040_2010_0804_0201;

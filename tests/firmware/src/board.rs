@@ -1,9 +1,9 @@
 //! The proof on a board: results to whoever watches, instructions by its clock, stack by painting it.
 
-use core::fmt::{self, Write};
+use core::fmt;
 use core::panic::PanicInfo;
 
-use fluoropose_firmware::writing::{whole, words};
+use fluoropose_firmware::writing::{Write, whole, words};
 use fluoropose_firmware::{DATA, Memory};
 
 #[cfg(target_arch = "arm")]

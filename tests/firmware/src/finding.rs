@@ -1,7 +1,5 @@
 //! From an outline anywhere in the frame to a chosen, judged pose, in memory of a part of the frame.
 
-use core::fmt::Write;
-
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::{Decision, Found, Goal, find_into};
 use fluoropose::image::contour::{Outline, Point};
@@ -12,7 +10,7 @@ use fluoropose::{RefineOptions, Silhouette};
 use crate::failure::Failure;
 pub(crate) use crate::implanted::opened;
 use crate::implanted::{Arena, FRAME_SIDE, calibrated};
-use crate::writing::{pose_numbers, whole, words};
+use crate::writing::{Write, pose_numbers, whole, words};
 
 /// All that is worked in.
 pub struct Memory {

@@ -1,7 +1,5 @@
 //! From an outline anywhere in the frame to a library's poses, with every number written out.
 
-use core::fmt::Write;
-
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::crop::Crop;
 use fluoropose::library::Library;
@@ -10,7 +8,7 @@ use fluoropose_kernels::fastest;
 
 use crate::failure::Failure;
 use crate::inputs::LIBRARY;
-use crate::writing::{number, pose_numbers, whole, words};
+use crate::writing::{Write, number, pose_numbers, whole, words};
 
 /// Rival poses to report.
 const RIVALS: usize = 3;

@@ -1,14 +1,14 @@
 //! Random polygons in place of the outline, one after another: none ends the program, all of them lead to the host's answers, and none
 //! takes more stack than is told.
 
-use core::fmt::{self, Write};
+use core::fmt;
 
 use fluoropose::Point;
 
 use crate::failure::Failure;
 use crate::program::Memory;
 use crate::program::way::{opened, pose_of};
-use crate::writing::{digits, whole, words};
+use crate::writing::{Write, digits, whole, words};
 
 /// How many; `FLUOROPOSE_OUTLINES` when it is built.
 const COUNT: u64 = match option_env!("FLUOROPOSE_OUTLINES") {

@@ -2,9 +2,6 @@
 //! to the next.
 
 #[cfg(not(feature = "outlines"))]
-use core::fmt::Write;
-
-#[cfg(not(feature = "outlines"))]
 use crate::failure::Failure;
 #[cfg(feature = "finder")]
 pub(crate) use crate::finding as way;
@@ -39,7 +36,7 @@ pub const DATA: [(&str, usize); 2] = [BLOB, ("outline", OUTLINE)];
 #[cfg(not(feature = "outlines"))]
 pub fn run(
     memory: &mut Memory,
-    out: &mut dyn Write,
+    out: &mut dyn crate::writing::Write,
     stage: &mut dyn FnMut(&str),
 ) -> Result<(), Failure> {
     let known = way::opened(stage)?;

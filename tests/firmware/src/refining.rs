@@ -1,7 +1,5 @@
 //! From the pose of the frame before to that of this one, without a library: what following an implant takes.
 
-use core::fmt::Write;
-
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::crop::Crop;
 use fluoropose::implant::ImplantFile;
@@ -13,7 +11,7 @@ use crate::failure::Failure;
 pub use crate::implanted::Arena as Memory;
 pub(crate) use crate::implanted::opened;
 use crate::implanted::{FRAME_SIDE, calibrated};
-use crate::writing::{number, pose_numbers, whole, words};
+use crate::writing::{Write, number, pose_numbers, whole, words};
 
 /// Where the implant was on the frame before: some 4 degrees, 3 mm in the plane and 15 mm of depth away.
 const START: EulerPose = EulerPose {

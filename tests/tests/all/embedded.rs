@@ -6,7 +6,7 @@ mod header;
 use std::collections::BTreeMap;
 use std::ptr::{null, null_mut};
 
-use fluoropose::finder::{FinderBuffers, Goal, find};
+use fluoropose::finder::{FinderBuffers, Found, Goal, find};
 use fluoropose::image::crop::Crop;
 use fluoropose::implant::ImplantFile;
 use fluoropose::search::kernels::Kernels;
@@ -115,16 +115,7 @@ fn c_finds_what_the_finder_finds_and_so_in_slices() {
             }
             let (columns, rows) = mask.bounds();
             let crop = Crop::around(columns, rows, Crop::MARGIN, [512; 2]).expect("some");
-            let mut part = crop
-                .mask(vec![0; crop.words_needed()].leak())
-                .expect("fits");
-            for row in crop.rows() {
-                for column in crop.columns() {
-                    let at = (column - crop.columns().start, row - crop.rows().start);
-                    part.set(at.0, at.1, mask.get(column, row));
-                }
-            }
-            let part = part.into_mask();
+            let part = cut_out(&mask, &crop);
             let silhouette = Silhouette::from(&part).in_crop(&crop).expect("inside");
             let camera = camera().cropped(&crop).expect("a part");
             let mut buffers = FinderBuffers::default();
@@ -140,33 +131,51 @@ fn c_finds_what_the_finder_finds_and_so_in_slices() {
                 &mut memory,
             );
             let own = own.expect("found");
-            let decision = own.decide(&Default::default()).expect("some");
             for slices in [u32::MAX, 1] {
                 c.rows(&mask);
                 // SAFETY: an open session.
                 let more = || unsafe { fluoropose_go_on(c.finder, slices) };
                 let calls = (1..).find(|_| more() != Status::More).expect("it ends");
                 assert!(calls > 10 || slices > 1, "{calls} calls");
-                let found = c.found();
-                assert_eq!(found.candidates as usize, own.candidates.len());
-                assert_eq!(found.chosen as usize, decision.choice.index);
-                assert_eq!(found.part[2..], [crop.width() as u32, crop.height() as u32]);
-                assert_eq!(c.sentence(), decision.verdict.to_string());
-                for (number, own) in own.candidates.iter().enumerate() {
-                    let there = c.candidate(number as u32);
-                    assert_eq!(
-                        (there.rotation, there.translation_mm),
-                        (own.pose.rotation, own.pose.translation)
-                    );
-                    let covariance = own.covariance.map(|own| own.matrix);
-                    assert_eq!(
-                        (there.has_covariance > 0).then_some(there.covariance),
-                        covariance
-                    );
-                    assert_eq!((there.misfit_px, there.met), (own.misfit(), own.fit.met));
-                }
+                let sides = [crop.width() as u32, crop.height() as u32];
+                assert_eq!(c.found().part[2..], sides);
+                assert_finds(&c, &own);
             }
         }
+    }
+}
+
+fn cut_out(mask: &Mask<'_>, crop: &Crop) -> Mask<'static> {
+    let words = vec![0; crop.words_needed()].leak();
+    let mut part = crop.mask(words).expect("fits");
+    for row in crop.rows() {
+        for column in crop.columns() {
+            let at = (column - crop.columns().start, row - crop.rows().start);
+            part.set(at.0, at.1, mask.get(column, row));
+        }
+    }
+    part.into_mask()
+}
+
+/// A session has found the same, to the bit.
+fn assert_finds(c: &Opened, own: &Found) {
+    let decision = own.decide(&Default::default()).expect("some");
+    let found = c.found();
+    assert_eq!(found.candidates as usize, own.candidates.len());
+    assert_eq!(found.chosen as usize, decision.choice.index);
+    assert_eq!(c.sentence(), decision.verdict.to_string());
+    for (number, own) in own.candidates.iter().enumerate() {
+        let there = c.candidate(number as u32);
+        assert_eq!(
+            (there.rotation, there.translation_mm),
+            (own.pose.rotation, own.pose.translation)
+        );
+        let covariance = own.covariance.map(|own| own.matrix);
+        assert_eq!(
+            (there.has_covariance > 0).then_some(there.covariance),
+            covariance
+        );
+        assert_eq!((there.misfit_px, there.met), (own.misfit(), own.fit.met));
     }
 }
 
@@ -206,6 +215,22 @@ fn what_comes_in_a_wrong_order_is_refused() {
             fluoropose_candidate_of(c.finder, 99, &mut candidate),
             Status::Order
         );
+    }
+}
+
+#[test]
+fn another_camera_gives_up_what_was_found() {
+    let (own, bytes) = made_femur();
+    let c = opened(bytes.bytes(), &ROOM);
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let (mut found, mut camera) = (FoundNumbers::default(), CameraNumbers::default());
+    // SAFETY: an open session; what is not null leads to what is said.
+    unsafe {
+        c.rows(&mask);
+        assert_eq!(fluoropose_find(c.finder), Status::Ok);
+        assert_eq!(c.found().verdict, 0);
+        assert_eq!(fluoropose_camera_of(c.finder, &mut camera), Status::Ok);
         // Another camera: nothing is left of what was found, and impossible ones are refused.
         camera.fx = f64::NAN;
         assert_eq!(fluoropose_set_camera(c.finder, &camera), Status::Camera);

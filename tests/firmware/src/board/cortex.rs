@@ -1,6 +1,6 @@
 //! Cortex-M: results through semihosting, instructions by SysTick.
 
-use core::fmt::{self, Write};
+use core::fmt;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use cortex_m::peripheral::SYST;
@@ -9,6 +9,7 @@ use cortex_m_rt::{entry, exception};
 use cortex_m_semihosting::hio::HostStream;
 use cortex_m_semihosting::{debug, hio};
 use fluoropose_firmware::Memory;
+use fluoropose_firmware::writing::{Write, divided};
 
 use super::{Board, Told, prove, stack, tell_panic};
 
@@ -30,7 +31,7 @@ fn main() -> ! {
 
 /// Instructions for so many ticks of the core's clock: under QEMU with `-icount shift=6` an instruction takes 64 ns, 1.6 ticks of
 /// 25 MHz and 10.752 of the 168 MHz of a Netduino Plus 2.
-const RATE: (u64, u64) = if cfg!(feature = "netduinoplus2") {
+const RATE: (u64, u32) = if cfg!(feature = "netduinoplus2") {
     (125, 1344)
 } else {
     (5, 8)
@@ -54,7 +55,7 @@ impl Board for CortexM {
         let now = now();
         let ticks = now - self.last;
         self.last = now;
-        ticks * RATE.0 / RATE.1
+        divided(ticks * RATE.0, RATE.1).0
     }
 }
 

@@ -5,10 +5,11 @@
 )]
 
 use core::arch::{asm, global_asm};
-use core::fmt::{self, Write};
+use core::fmt;
 use core::ptr::write_volatile;
 
 use fluoropose_firmware::Memory;
+use fluoropose_firmware::writing::Write;
 
 use super::{Board, Told, prove, stack, tell_panic};
 
