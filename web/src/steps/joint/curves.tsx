@@ -92,7 +92,7 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
         ))}
         {!large && numbers.hasPlate && <Tray doc={doc} numbers={numbers} shown={hovered ?? state.ui.frameIndex} onPick={(index) => store.goTo(index)} />}
       </div>
-      <Wrong numbers={numbers} doc={doc} kneeDoubt={state.ui.kneeDoubt} />
+      <Wrong numbers={numbers} doc={doc} kneeDoubt={doc.kneeDoubt?.sentence ?? null} />
       <Legend numbers={numbers} doc={doc} hovered={hovered} />
     </>
   );
