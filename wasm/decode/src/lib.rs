@@ -50,6 +50,8 @@ mod mask;
 
 mod model;
 
+mod names;
+
 pub mod page;
 
 pub use encode::encode_mask;
@@ -58,5 +60,6 @@ pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
 pub use mask::{MaskImage, MaskRule, decode_mask, decode_mask_by, mask_of};
 pub use model::{Model, decode_model};
+pub use names::{gaps_among, name_order};
 pub use shutter::{MAX_CORNERS, Shutter};
 pub use sniff::{Kind, SNIFFED, sniff, sniff_head};

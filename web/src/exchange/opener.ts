@@ -1,7 +1,7 @@
 import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
-import { gapsIn } from './name_gaps';
 import { byName } from './name_order';
+import { asSentence } from '../texts/sentences';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
@@ -376,7 +376,7 @@ async function openFrames(
   const unread = unreadAfter(services.store.doc, lost, entries);
   if (entries.length === 0) return keepUnread(services, unread);
   addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
-  news.push(...repeatsAmong(decoded), ...gapsAmong(files));
+  news.push(...repeatsAmong(decoded), ...(await gapsAmong(services, files)));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
@@ -414,9 +414,9 @@ function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
   return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
 }
 
-function gapsAmong(files: readonly Incoming[]): readonly string[] {
-  const gaps = gapsIn(files.map(({ name }) => name));
-  return gaps ? [texts.said.gaps(gaps.missing, gaps.between.slice(0, NAMED), Math.max(gaps.between.length - NAMED, 0))] : [];
+async function gapsAmong({ decoder }: Services, files: readonly Incoming[]): Promise<readonly string[]> {
+  const told = await decoder.call('gapsAmong', { names: files.map(({ name }) => name) });
+  return told === null ? [] : [asSentence(told)];
 }
 
 /** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */
