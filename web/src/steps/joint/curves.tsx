@@ -103,8 +103,10 @@ function Wrong({ numbers, doc, kneeDoubt }: { numbers: JointNumbers; doc: Doc; k
   const words = later.curves;
   const told = useMemo(() => impossibilitiesOf(doc, numbers), [doc.frames, numbers]);
   const { of, impossible, waiting } = numbers;
-  const trusts = jointTrusts(doc);
-  const none = of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
+  const none = useMemo(() => {
+    const trusts = jointTrusts(doc);
+    return of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
+  }, [doc, numbers]);
   if (told.length === 0 && !none && kneeDoubt === null) return null;
   return (
     <div class="joint-wrong" role="status">
