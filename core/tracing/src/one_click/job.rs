@@ -227,7 +227,7 @@ impl OneClick {
             return Ok(Stage::Preprocess(pass + 1));
         }
         if self.sharpest.is_none() && !with_component {
-            return Err(nothing_in(observation));
+            return Err(blank_or(OneClickError::NoRegion, observation));
         }
         Ok(Stage::Refine(0))
     }
@@ -246,16 +246,16 @@ impl OneClick {
         match self.answers.is_empty() {
             false => Ok(Stage::Done),
             true if self.begin_otherwise(observation.camera)? => Ok(Stage::Preprocess(0)),
-            true if self.sharpest.is_none() => Err(nothing_in(observation)),
-            true => Err(OneClickError::NoFit),
+            true if self.sharpest.is_none() => Err(blank_or(OneClickError::NoRegion, observation)),
+            true => Err(blank_or(OneClickError::NoFit, observation)),
         }
     }
 }
 
-/// Why nothing is set off from its surroundings.
-fn nothing_in(observation: &Observation<'_>) -> OneClickError {
+/// Why there is no answer: noise of a frame that shows nothing has regions too.
+fn blank_or(why: OneClickError, observation: &Observation<'_>) -> OneClickError {
     match is_blank(observation.frame, ONE_GREY) {
         true => OneClickError::Blank,
-        false => OneClickError::NoRegion,
+        false => why,
     }
 }
