@@ -27,6 +27,8 @@
 //! # Ok::<(), fluoropose_decode::DecodeError>(())
 //! ```
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
+
 // In the order of the data.
 mod error;
 pub mod limits;
