@@ -1,5 +1,6 @@
 //! What is seen: grey frames, outlines, masks of one bit a pixel, and what is measured of them.
 
+pub mod blank;
 pub mod border;
 pub mod contour;
 pub mod crop;

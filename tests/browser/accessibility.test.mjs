@@ -48,8 +48,17 @@ pageTest('accessibility', async (page, t) => {
     assert.equal(await page.getByRole('list', { name: 'Steps' }).count(), 0);
   });
 
-  await step(page, t, 'with a pose', async () => {
+  await step(page, t, 'the step is not read as a second button', async () => {
     await panel.openDemonstration(page);
+    const usual = page.viewportSize();
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await page.getByText('Step 2 of 5', { exact: true }).waitFor();
+    const steps = await page.getByRole('list', { name: 'Steps' }).boundingBox();
+    assert(steps && steps.width <= 1, 'names of steps stand beside the button that leads on');
+    if (usual) await page.setViewportSize(usual);
+  });
+
+  await step(page, t, 'with a pose', async () => {
     await isAccessible(page);
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
     const stage = new Stage(page);

@@ -96,7 +96,10 @@ pageTest('rows of poses beside a damaged frame', async (page, t) => {
     assert.match(sentence, /0002\.png could not be read/);
     assert.deepEqual((await panel.cells(page)).filter((name) => name.includes('pose')), []);
   });
-  await step(page, t, 'rows for the damaged one too stay each with its own frame', async () => {
+  await step(page, t, 'rows for the damaged one too stay each with its own frame, also after a reload', async () => {
+    await panel.waitUntilKept(page);
+    await page.reload();
+    await panel.waitForFrames(page, 3);
     await choose(page, rows(4));
     await panel.waitForWords(page, /^Opened femur\.jts as poses of the femur \(it has rows for 0002\.png too/);
     await page.getByRole('button', { name: /^Frame 3, femur: pose loaded/ }).click();
@@ -178,3 +181,10 @@ function flipped(library) {
     return /** @type {const} */ ([bit, file(`bit-${bit}.lib`, bytes)]);
   });
 }
+
+/** By the rule of the commands: one that the decoders' worker has. */
+pageTest('a gap among numbered frames is told', async (page) => {
+  const frame = await demoFile(framePath(1));
+  await choose(page, ...[1, 2, 3, 5, 6].map((number) => file(`k_${number}.png`, frame.buffer)));
+  await panel.waitForWords(page, /1 of the numbered files is missing, between k_3\.png and k_5\.png: the frames at hand/);
+});

@@ -10,6 +10,7 @@ use crate::axes::{Plot, Scale};
 use crate::cell::quoted;
 use crate::drawing::{Anchor, Colour, Drawing, Dress, Figure, Stroke};
 use crate::group::Group;
+use crate::plus_minus::plus_minus;
 
 /// In place of a knee, in rows of its group.
 const OF_THE_GROUP: &str = "mean of the group";
@@ -126,14 +127,11 @@ fn draw(drawing: &mut Drawing, plot: &Plot, (name, points): (&str, &[Point]), in
         .collect();
     drawing.line(&middle, ink);
     for ((flexion, mean), at) in points.iter().zip(&middle) {
-        let between = match mean.deviation.is_finite() {
-            true => format!(" \u{b1} {:.2}", mean.deviation),
-            false => String::new(),
+        let mean_of = match mean.deviation.is_finite() {
+            true => plus_minus(mean.mean, mean.deviation, 2),
+            false => format!("{:.2}", mean.mean),
         };
-        let title = format!(
-            "{name}, {flexion}\u{b0}: {:.2}{between}, n = {}",
-            mean.mean, mean.n
-        );
+        let title = format!("{name}, {flexion}\u{b0}: {mean_of}, n = {}", mean.n);
         drawing.point(*at, 2.4, Dress::filled(ink.colour), &title);
     }
 }

@@ -10,6 +10,7 @@ use fluoropose::joint::shared::KnownTo;
 use crate::facts::{CONVENTIONS, Facts, filter, times};
 use crate::figure::figure;
 use crate::film::{JointFilm, ORIGINS};
+use crate::plus_minus::plus_minus;
 use crate::svg::escaped;
 
 const STYLE: &str = "\
@@ -114,7 +115,7 @@ fn with_deviation(value: f64, deviation: f64) -> String {
     match (value.is_finite(), deviation.is_finite()) {
         (false, _) => "\u{2013}".to_owned(),
         (true, false) => minus(&format!("{value:.1}")),
-        (true, true) => minus(&format!("{value:.1} \u{b1} {deviation:.1}")),
+        (true, true) => plus_minus(value, deviation, 1),
     }
 }
 

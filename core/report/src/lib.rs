@@ -20,6 +20,7 @@ pub mod overlay;
 mod pdf;
 #[cfg(feature = "png")]
 mod picture;
+mod plus_minus;
 pub mod read;
 mod svg;
 #[cfg(feature = "webm")]
@@ -35,3 +36,4 @@ pub use group::{Group, Knee};
 pub use html::html;
 #[cfg(feature = "png")]
 pub use picture::Picture;
+pub use plus_minus::plus_minus;

@@ -9,6 +9,7 @@ use super::motion::between;
 use super::side_margin::SideMargin;
 use super::state::State;
 use super::trust::{FrameEvidence, Trust};
+use crate::image::blank::BLANK;
 use crate::math::Vector3;
 use crate::pose::Pose;
 
@@ -30,6 +31,8 @@ pub enum Why {
     Outside(f64),
     /// There are no edges of it.
     Hidden,
+    /// The frame shows nothing at all.
+    Blank,
 }
 
 impl fmt::Display for Why {
@@ -52,6 +55,7 @@ impl fmt::Display for Why {
                 )
             }
             Self::Hidden => f.write_str("there are no edges of it where it is expected"),
+            Self::Blank => f.write_str(BLANK),
         }
     }
 }
@@ -85,6 +89,7 @@ impl Conclusion {
             (Some(looked), _, distrust) => match (looked.found, distrust) {
                 (Err(Missing::Outside), _) => (State::Untrackable, Why::Outside(looked.known)),
                 (Err(Missing::Hidden), _) => (State::Untrackable, Why::Hidden),
+                (Err(Missing::Blank), _) => (State::Untrackable, Why::Blank),
                 (Ok(_), Some(distrust)) => (State::Doubtful, Why::Distrusted(distrust)),
                 (Ok(_), None) if trust.is_between => (State::Followed, Why::Agrees),
                 (Ok(_), None) => (State::Followed, Why::AgreesAlone),

@@ -6,6 +6,7 @@ use super::near::near_poses;
 use super::subject::Subject;
 use super::trail::{Trail, Usual, apart};
 use crate::finder::nearby::about;
+use crate::image::blank::{ONE_GREY, is_blank};
 use crate::math::{Vector3, radians, scale};
 use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineMemory, part_beyond};
@@ -38,6 +39,8 @@ pub enum Missing {
     Outside,
     /// Where it is expected, and around there, are no edges of it.
     Hidden,
+    /// The frame shows nothing at all.
+    Blank,
 }
 
 /// What came of a frame.
@@ -116,6 +119,7 @@ impl Search<'_> {
                 searched: true,
                 known: found.fit.seen(),
             },
+            None if self.is_blank() => self.nothing(Missing::Blank, known),
             None => self.nothing(Missing::Hidden, known),
         }
     }
@@ -124,9 +128,14 @@ impl Search<'_> {
         Looked {
             found: Err(why),
             ordinary: false,
-            searched: why == Missing::Hidden,
+            searched: why != Missing::Outside,
             known,
         }
+    }
+
+    /// Steps that are less than an edge of the component has do not count.
+    fn is_blank(&self) -> bool {
+        is_blank(self.image.frame, ONE_GREY.max(LEAST_STEP * self.usual.step))
     }
 
     /// The best of what refinement found and of what poses around the expected one lead to.

@@ -27,6 +27,8 @@
 //! # Ok::<(), fluoropose_decode::DecodeError>(())
 //! ```
 
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
+
 // In the order of the data.
 mod error;
 pub mod limits;
@@ -50,6 +52,8 @@ mod mask;
 
 mod model;
 
+mod names;
+
 pub mod page;
 
 pub use encode::encode_mask;
@@ -58,5 +62,6 @@ pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
 pub use mask::{MaskImage, MaskRule, decode_mask, decode_mask_by, mask_of};
 pub use model::{Model, decode_model};
+pub use names::{gaps_among, name_order};
 pub use shutter::{MAX_CORNERS, Shutter};
 pub use sniff::{Kind, SNIFFED, sniff, sniff_head};

@@ -18,6 +18,12 @@ pub fn sniff(head: &[u8], length: usize, name: &str) -> String {
     crate::sniff_head(head, length, name).word().to_owned()
 }
 
+/// What is missing among files that are numbered, a sentence without its full stop; names in their order.
+#[wasm_bindgen(js_name = gapsAmong)]
+pub fn gaps_among(names: Vec<String>) -> Option<String> {
+    crate::gaps_among(&names)
+}
+
 /// A file of frames, kept in the module's memory until it is freed.
 #[wasm_bindgen(js_name = FrameFile)]
 pub struct PageFrameFile(FrameFile<'static>);

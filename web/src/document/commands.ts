@@ -166,7 +166,8 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
 // --- What is opened ---------------------------------------------------------------------------------------------
 
 /** Behind those that are there; with an order of names each at its place among them. */
-export function addFrames(frames: readonly FrameEntry[], byName?: (a: string, b: string) => number): Command {
+/** `unread`: files that could not be read, of these frames and those before. */
+export function addFrames(frames: readonly FrameEntry[], unread?: readonly string[], byName?: (a: string, b: string) => number): Command {
   return {
     label: texts.steps.openFrames(frames.length),
     apply: (doc) => {
@@ -174,7 +175,7 @@ export function addFrames(frames: readonly FrameEntry[], byName?: (a: string, b:
       const fresh = frames.filter((frame) => !known.has(frame.id));
       const all = [...doc.frames, ...fresh];
       if (byName) all.sort((a, b) => byName(a.name, b.name));
-      return fresh.length === 0 ? doc : { ...doc, frames: all };
+      return fresh.length === 0 ? doc : { ...doc, frames: all, unread: unread ?? doc.unread };
     },
   };
 }

@@ -3,7 +3,7 @@ import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
-import { isSilhouette } from './laid_by';
+import { isDiscarded, isSilhouette } from './laid_by';
 import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
@@ -35,9 +35,10 @@ export interface Followed {
   readonly from: string;
 }
 
-/** Nobody worked on it, so that following may say what is there. */
-export function isFree({ outline, result }: Cell): boolean {
-  return outline === null && (result === null || isFollowed(result));
+/** Nobody worked on it, so that following may say what is there. A click that found nothing fixes nothing. */
+export function isFree(cell: Cell): boolean {
+  const { outline, result } = cell;
+  return isDiscarded(cell) || (outline === null && (result === null || isFollowed(result)));
 }
 
 /** The program found it, by itself or from a click, and nobody chose another. */
@@ -79,14 +80,13 @@ export function withSoFar(doc: Doc, place: Place, pose: PoseNumbers, from: strin
   if (!isFree(cell)) return doc;
   const because = texts.follow.soFar;
   const result = posedBy(`${SO_FAR} ${from}`, bare(pose), { word: 'doubtful', because }, null);
-  return withCell(doc, place, { ...cell, result, resultOf: null });
+  return withCell(doc, place, { outline: null, result, resultOf: null });
 }
 
 /** The cells as they were before they were followed so far. */
-export function withoutSoFar(doc: Doc, before: readonly (readonly [Place, Result | null])[]): Doc {
-  return before.reduce((changed, [place, result]) => {
-    const cell = cellOf(changed, place.frameId, place.component);
-    return isSoFar(cell.result) ? withCell(changed, place, { ...cell, result, resultOf: null }) : changed;
+export function withoutSoFar(doc: Doc, before: readonly (readonly [Place, Cell])[]): Doc {
+  return before.reduce((changed, [place, was]) => {
+    return isSoFar(cellOf(changed, place.frameId, place.component).result) ? withCell(changed, place, was) : changed;
   }, doc);
 }
 
@@ -98,7 +98,7 @@ export function takeFollowed(found: readonly Followed[]): Command {
 function withFollowed(doc: Doc, one: Followed): Doc {
   const cell = cellOf(doc, one.place.frameId, one.place.component);
   if (one.isLeader && !isFollowed(cell.result)) return isFound(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
-  return isFree(cell) ? withCell(doc, one.place, { ...cell, result: resultOf(one), resultOf: null }) : doc;
+  return isFree(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
 }
 
 function resultOf({ pose, deviations, residual, doubtful, badness, rival, led, because, from }: Followed): Result {

@@ -55,10 +55,6 @@ export interface Ui {
   readonly proposal: Proposal | null;
   /** Files of poses between which a person has to choose; null while there are none. */
   readonly poseSets: PoseSets | null;
-  /** What the joint tells of the film as a whole, as that it is mirrored: a sentence without its full stop. */
-  readonly kneeDoubt: string | null;
-  /** Names of files of frames that were opened and could not be read. */
-  readonly unread: readonly string[];
   /** What the calibration helper has before it; null before it is first opened. */
   readonly measuring: Measuring | null;
   /** Brings a newer version of the page into use; null while there is none. */
@@ -162,8 +158,6 @@ const EMPTY_UI: Ui = {
   keeping: { state: 'nothing' },
   proposal: null,
   poseSets: null,
-  kneeDoubt: null,
-  unread: [],
   measuring: null,
   update: null,
   theme: 'dark',

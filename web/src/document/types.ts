@@ -15,6 +15,8 @@ export interface Doc {
   readonly name: string;
   readonly side: Side;
   readonly frames: readonly FrameEntry[];
+  /** Names of files of frames that were opened and could not be read: files of poses may have rows for them. */
+  readonly unread: readonly string[];
   readonly calibration: Calibration | null;
   readonly components: Readonly<Record<ComponentName, Component>>;
   /** One cell a frame and component. */
@@ -31,8 +33,17 @@ export interface Doc {
   readonly rate: number | null;
   /** What is known of how the frames show metal. */
   readonly film: Film;
+  /** What the joint told last of the film as a whole, as that it is mirrored. */
+  readonly kneeDoubt: KneeDoubt | null;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
   readonly work: string;
+}
+
+export interface KneeDoubt {
+  /** Of which models and axes. */
+  readonly models: string;
+  /** Without its full stop. */
+  readonly sentence: string;
 }
 
 /** What a person says of a cell. */
@@ -310,6 +321,7 @@ export const EMPTY_DOC: Doc = {
   name: '',
   side: 'unknown',
   frames: [],
+  unread: [],
   calibration: null,
   components: { femur: EMPTY_COMPONENT, tibia: EMPTY_COMPONENT },
   cells: Cells.NONE,
@@ -319,6 +331,7 @@ export const EMPTY_DOC: Doc = {
   distortion: null,
   rate: null,
   film: UNKNOWN_FILM,
+  kneeDoubt: null,
   work: '',
 };
 

@@ -1,13 +1,13 @@
 import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
-import { gapsIn } from './name_gaps';
 import { byName } from './name_order';
+import { asSentence } from '../texts/sentences';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
 import { distinct } from '../document/same_frames';
 import { componentIn, takeStudy, type Study } from '../document/study';
-import type { FrameEntry } from '../document/types';
+import type { Doc, FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
 import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { later } from '../texts/later';
@@ -322,8 +322,7 @@ async function openLibrary({ store, assets, checkLibrary }: Services, file: Inco
 
 async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
   const poses = studio.readPoses(await textOf(file));
-  const { frames } = store.doc;
-  const { unread } = store.ui;
+  const { frames, unread } = store.doc;
   if (frames.length === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);
   const rows = rowsOfFrames(poses.length, frames, unread);
@@ -373,26 +372,29 @@ async function openFrames(
     }
   });
   const entries = decoded.map(({ entry }) => entry);
-  const isMended = entries.length > 0 && entries.every(({ name }) => services.store.ui.unread.includes(name));
-  keepUnread(services, lost, entries);
-  if (entries.length === 0) return;
-  addToDocument(services, distinct(entries), isMended, files[0]?.path);
-  news.push(...repeatsAmong(decoded), ...gapsAmong(files));
+  const isMended = entries.length > 0 && entries.every(({ name }) => services.store.doc.unread.includes(name));
+  const unread = unreadAfter(services.store.doc, lost, entries);
+  if (entries.length === 0) return keepUnread(services, unread);
+  addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
+  news.push(...repeatsAmong(decoded), ...(await gapsAmong(services, files)));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
 /** Files of frames that could not be read, until they are opened mended: files of poses may have rows for them. */
-function keepUnread({ store }: Services, lost: readonly string[], came: readonly FrameEntry[]): void {
-  const before = store.doc.frames.length > 0 ? store.ui.unread : [];
-  const unread = [...before.filter((name) => !lost.includes(name)), ...lost].filter((name) => !came.some((entry) => entry.name === name));
-  store.show({ unread });
+function unreadAfter({ unread }: Doc, lost: readonly string[], came: readonly FrameEntry[]): readonly string[] {
+  return [...unread.filter((name) => !lost.includes(name)), ...lost].filter((name) => !came.some((entry) => entry.name === name));
+}
+
+/** Without a frame there is no work yet that would have to know. */
+function keepUnread({ store }: Services, unread: readonly string[]): void {
+  if (store.doc.frames.length > 0) store.amend((doc) => ({ ...doc, unread }));
 }
 
 /** `isMended`: they could not be read when those beside them were opened, and have their places among them. */
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], isMended: boolean, path = ''): void {
+function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], unread: readonly string[], isMended: boolean, path = ''): void {
   const first = store.doc.frames.length;
   const isByName = store.doc.frames.every(({ name }, at, all) => at === 0 || byName(all[at - 1]!.name, name) < 0);
-  store.perform(commands.addFrames(entries, isMended && isByName ? byName : undefined));
+  store.perform(commands.addFrames(entries, unread, isMended && isByName ? byName : undefined));
   // Frames that were here before may be of another film.
   const rate = first === 0 && entries.length > 1 ? (studio.statedGeometry(entries[0]!.id)?.rate ?? null) : null;
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
@@ -412,9 +414,9 @@ function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
   return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
 }
 
-function gapsAmong(files: readonly Incoming[]): readonly string[] {
-  const gaps = gapsIn(files.map(({ name }) => name));
-  return gaps ? [texts.said.gaps(gaps.missing, gaps.between.slice(0, NAMED), Math.max(gaps.between.length - NAMED, 0))] : [];
+async function gapsAmong({ decoder }: Services, files: readonly Incoming[]): Promise<readonly string[]> {
+  const told = await decoder.call('gapsAmong', { names: files.map(({ name }) => name) });
+  return told === null ? [] : [asSentence(told)];
 }
 
 /** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */

@@ -19,7 +19,7 @@ export async function openSession(services: Services, file: Incoming, remarks: s
   store.perform({ label: texts.digests.openLabel, apply: () => session.doc });
   store.markSaved(store.doc);
   const { frameIndex, component, overlayOpacity } = session.view;
-  store.show({ tool: toolFor(session.doc, store.ui.tool), component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null, unread: [] });
+  store.show({ tool: toolFor(session.doc, store.ui.tool), component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
   store.goTo(frameIndex);
   if (session.audit) remarks.push(...(await auditTroubles(session.doc, session.audit)).map(texts.digests.trouble));
   if (missing.length > 0) remarks.push(texts.digests.missing(texts.listed(missing), missing.length));

@@ -1,7 +1,7 @@
 import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
 import { type Followed, withSoFar } from '../document/followed';
-import { cellOf, chosenCandidate, type Result, verdictOf } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, type Result, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Span } from '../results/spans';
 import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
@@ -13,7 +13,7 @@ import type { Looked, Progress } from './follow_progress';
 import type { Services } from './services';
 
 /** What was there in cells that are followed so far, by component and frame. */
-export type Before = Map<string, readonly [Place, Result | null]>;
+export type Before = Map<string, readonly [Place, Cell]>;
 
 /** A component with the frames that it is followed over. */
 export interface Part {
@@ -158,7 +158,7 @@ export class FilmPass {
     if (span.given.some((one) => one.frame === frame)) return;
     const place = { frameId, component };
     const key = `${component} ${frameId}`;
-    if (!this.#before.has(key)) this.#before.set(key, [place, cellOf(store.doc, frameId, component).result]);
+    if (!this.#before.has(key)) this.#before.set(key, [place, cellOf(store.doc, frameId, component)]);
     store.amend((doc) => withSoFar(doc, place, pose, span.key(frame)));
   }
 

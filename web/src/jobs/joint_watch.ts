@@ -1,7 +1,7 @@
 import { knownAxes } from '../document/axes';
 import { withAsides } from '../document/asides';
 import { filmNumbers } from '../document/film';
-import { type Candidate, cellOf, chosenCandidate, type Doc, verdictAlone } from '../document/types';
+import { type Candidate, cellOf, chosenCandidate, type Doc, type KneeDoubt, verdictAlone } from '../document/types';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES } from '../terms/component';
 import { asSentence } from '../texts/sentences';
@@ -40,8 +40,8 @@ export class JointWatch {
   #flipped: Flipped = { of: '', known: 0, pairs: new Map() };
   #busy = false;
   #said: string | null = null;
-  /** What was told of these models last. */
-  #finding: { readonly models: string; readonly sentence: string } | null = null;
+  /** What was told of these models last: kept with the work, and beside it where undo leads to a document from before. */
+  #finding: KneeDoubt | null = null;
   /** What is still to be said: it does not take the place of what is being said, but for that a pose is good. */
   #toSay: string | null = null;
 
@@ -62,17 +62,20 @@ export class JointWatch {
     const pairs = pairsOf(doc);
     const isAsked = models === this.#asked.models && alike(pairs, this.#asked.pairs);
     // A hand that moves a model asks with every step, and looks cost more than questions.
-    if (isAsked && (ui.tool === 'pose' || this.#isLookedAt(doc, models, pairs))) return;
+    if (isAsked && (ui.tool === 'pose' || this.#isLookedAt(doc, models, pairs))) return this.#keepFinding();
+    // Work that came back: what was told of it is not taken back before it was looked at as then.
+    const cameBack = models !== this.#asked.models && doc.kneeDoubt?.models === models;
     const parts = this.#partsOf(doc);
     if (!parts) return;
     if (!pairs.some(([femur, tibia]) => femur && tibia)) return this.#services.store.amend((doc) => withAsides(doc, []));
     this.#busy = true;
+    if (models !== this.#asked.models) this.#finding = doc.kneeDoubt;
     this.#asked = { models, pairs };
     try {
       const [femur, tibia] = parts;
       const frames = pairs.map(([femur, tibia]) => ({ femur: lying(femur), tibia: lying(tibia) }));
       const film = { key: models, femur, tibia, frames };
-      if (isAsked) await this.#lookFlipped(doc, film, pairs);
+      if (isAsked || cameBack) await this.#lookFlipped(doc, film, pairs);
       this.#take(await this.#worker.call('lyingBeside', film, { lane: 'idle' }));
     } catch (error) {
       if (error instanceof Aborted) this.#asked = { models: '', pairs: [] };
@@ -112,7 +115,7 @@ export class JointWatch {
     store.amend((doc) => withAsides(doc, told));
     const first = told.find((sentence) => sentence !== null) ?? this.#toldBefore();
     this.#finding = first === null ? null : { models: this.#asked.models, sentence: first };
-    if (store.ui.kneeDoubt !== first) store.show({ kneeDoubt: first });
+    this.#keepFinding();
     const { notice } = store.ui;
     // Its numbers change as more is known: it is not said twice in one line.
     const isSaid = this.#said !== null && notice?.text.includes(asSentence(this.#said));
@@ -120,6 +123,13 @@ export class JointWatch {
     else if (isSaid) return;
     this.#said = first;
     this.#say();
+  }
+
+  #keepFinding(): void {
+    const { store } = this.#services;
+    const kneeDoubt = this.#finding;
+    const { models, sentence } = store.doc.kneeDoubt ?? {};
+    if (models !== kneeDoubt?.models || sentence !== kneeDoubt?.sentence) store.amend((doc) => ({ ...doc, kneeDoubt }));
   }
 
   /** A film that was followed to no good knee does not take back what its first poses told: nothing has shown another cause. */

@@ -3,7 +3,7 @@ import { referencePose } from '../document/reference';
 import { isAccepted, markOf, NO_MARK } from '../document/marks';
 import { currentPlace, currentRefusal } from '../document/store';
 import { cellOf, chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
-import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
+import { decimalsFor, formatDeviation, formatNumber, NARROW } from '../texts/numbers';
 import { inWords } from '../results/missing';
 import { isFollowing, type Findings } from '../jobs/poser';
 import { wrapped } from '../geometry/pose_motion';
@@ -233,7 +233,7 @@ function Deviation({ name, unit, text }: { name: string; unit: string; text: str
   if (text === null) return <span class="deviation" />;
   return (
     <span class="deviation" role="group" aria-label={texts.panel.pose.deviation(name, text, unit)} title={texts.panel.pose.deviationTitle}>
-      ±{text}
+      {`±${NARROW}${text}`}
     </span>
   );
 }

@@ -75,6 +75,17 @@ export function pointsOf(doc: Doc, numbers: JointNumbers, column: string, along:
   });
 }
 
+/** The point of a frame, if it has one; points are in the order of frames. */
+export function pointAt(points: readonly CurvePoint[], index: number): CurvePoint | undefined {
+  let [low, high] = [0, points.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (points[middle]!.index < index) low = middle + 1;
+    else high = middle;
+  }
+  return points[low]?.index === index ? points[low] : undefined;
+}
+
 /** Numbers that differ by more from frame to frame, degrees or mm, are joined by no line: an angle that passed half a turn, or a wrong pose. */
 const JUMP = 45;
 

@@ -5,6 +5,7 @@ import { currentFrame, type State } from '../document/store';
 import { sentenceOf } from '../jobs/services';
 import type { FramePoint } from '../geometry/points';
 import { later } from '../texts/later';
+import { plusMinus } from '../texts/numbers';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { DistortionFindings } from './distortion_findings';
@@ -201,21 +202,17 @@ function ofPlate({ calibrator, services }: AppServices, state: State, { grid }: 
   const { present: doc } = state.history;
   const beads = calibrator.beadsForCamera(grid, doc);
   const numbers = services.studio.plateCamera(beads, known, toDetector, toObject, grid);
-  const [pitch = NaN, pitchDeviation = 0, x = 0, y = 0, dx = 0, dy = 0, isMeasured = 0, tilt = 0, residual = 0, used = 0] = numbers;
-  const before = grid.distortion?.quality[2] ?? 0;
+  const [pitch = NaN, pitchDeviation = 0, x = 0, y = 0, dx = 0, dy = 0, isMeasured = 0, tilt = 0, residual = 0, used = 0, isDistorted = 0] = numbers;
   const sentences = [
-    `${said.pitch(pitch.toFixed(5), pitchDeviation.toFixed(5))}; ${
-      isMeasured ? said.point(x.toFixed(2), y.toFixed(2), dx.toFixed(2), dy.toFixed(2)) : said.pointUnknown(tilt.toFixed(1))
+    `${said.pitch(plusMinus(pitch, pitchDeviation, 5))}; ${
+      isMeasured ? said.point(plusMinus(x, dx, 2), plusMinus(y, dy, 2)) : said.pointUnknown(tilt.toFixed(1))
     }`,
     said.residual(residual.toFixed(3), used),
     said.distancesMatter,
   ];
-  if (!doc.distortion && before > DISTORTED) sentences.push(said.distortedFirst(before.toFixed(2)));
+  if (!doc.distortion && isDistorted) sentences.push(said.distortedFirst(residual.toFixed(2)));
   return { sentences, pitch, offset: isMeasured ? [x, y] : [0, 0] };
 }
-
-/** Bead centres are better than this, px: what is more is distortion. */
-const DISTORTED = 0.3;
 
 function ofRuler({ services }: AppServices, measuring: Measuring, { known, toDetector, toObject }: Lengths): CameraFound {
   const marks = marksOf(measuring);

@@ -7,13 +7,19 @@ export function StepBar({ state }: { state: State }) {
   const doc = state.history.present;
   const { step } = standingOf(doc);
   const shown: readonly Step[] = doc.frames.length > 1 ? STEPS : STEPS.filter((one) => one !== 'follow');
+  const { region, names, count } = texts.first.steps;
   return (
-    <ol class="way" aria-label={texts.first.steps.region}>
-      {shown.map((one) => (
-        <li key={one} class="step" aria-current={one === step ? 'step' : undefined}>
-          {texts.first.steps.names[one]}
-        </li>
-      ))}
-    </ol>
+    <>
+      <ol class="way" aria-label={region}>
+        {shown.map((one) => (
+          <li key={one} class="step" aria-current={one === step ? 'step' : undefined}>
+            {names[one]}
+          </li>
+        ))}
+      </ol>
+      <span class="way-count" aria-hidden="true" title={shown.map((one) => names[one]).join(' › ')}>
+        {count(1 + shown.indexOf(step), shown.length)}
+      </span>
+    </>
   );
 }

@@ -40,10 +40,10 @@ export const calibrateSheet = {
   toObject: { grid: 'Source to plate', ruler: 'Source to ruler' },
   mark: (number: number, axis: 'column' | 'row') => `Mark ${number} ${axis}`,
   clearMarks: 'Clear the marks',
-  pitch: (pitch: string, deviation: string) => `Pixel pitch ${pitch} ± ${deviation} mm at the detector`,
+  pitch: (pitch: string) => `Pixel pitch ${pitch} mm at the detector`,
   pitchAlone: (pitch: string, focal: string, length: string) =>
     `Pixel pitch ${pitch} mm at the detector, focal length ${focal} px, from ${length} px between the marks.`,
-  point: (x: string, y: string, dx: string, dy: string) => `principal point ${x} ± ${dx}, ${y} ± ${dy} mm from the frame's middle.`,
+  point: (x: string, y: string) => `principal point ${x}, ${y} mm from the frame's middle.`,
   pointUnknown: (tilt: string) =>
     `principal point: the frame's middle. A plate this level (${tilt}°) does not show it; tilt the plate by 20° or more in both directions, or type it in the calibration.`,
   pointOfRuler: 'The principal point is taken to be the frame’s middle: a ruler does not show it.',

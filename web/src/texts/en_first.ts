@@ -2,6 +2,7 @@
 export const first = {
   steps: {
     region: 'Steps',
+    count: (step: number, all: number) => `Step ${step} of ${all}`,
     names: { open: 'Open', first: 'First frame', follow: 'Follow', check: 'Check', joint: 'Joint' },
     give: { calibration: 'Give calibration', femur: 'Give a model', tibia: 'Give a model' },
     giveTitles: {

@@ -40,8 +40,6 @@ export const said = {
     }Open the frames that the poses are for, or write a row for each frame in the order of the strip, NaN six times where there is no pose.`,
   repeats: (pairs: readonly (readonly [number, number])[], more: number) =>
     `Frames ${pairs.map(([one, other]) => `${one} and ${other}`).join(', ')}${more > 0 ? ` and ${more} more pairs` : ''} are the same to the last pixel: was one written twice? They count as neighbours at even times.`,
-  gaps: (missing: number, between: readonly (readonly [string, string])[], more: number) =>
-    `${missing} of the numbered files ${missing === 1 ? 'is' : 'are'} missing, between ${between.map((pair) => pair.join(' and ')).join(', ')}${more > 0 ? ` and ${more} more` : ''}: the frames at hand are taken for neighbours at even times.`,
   theFrames: (count: number, name: string) => (count === 1 ? `the frame ${name}` : `${count} frames`),
   openingFrames: (files: number) => (files === 1 ? 'Opening frames' : `Opening ${files} files of frames`),
   frames: 'frames',

@@ -1,4 +1,7 @@
-/** Numbers of a pose as they are shown. */
+/** Numbers as they are shown; with a standard deviation, by the rule of report and commands (`core/report/src/plus_minus.rs`). */
+
+/** A space that breaks no line. */
+export const NARROW = '\u202f';
 
 /**
  * As many decimals as the uncertainty is worth: two of its digits, but not more than usual, unless even its first digit
@@ -19,6 +22,12 @@ export function formatNumber(value: number, decimals: number): string {
 /** Never shown as none: the least that the decimals can say. */
 export function formatDeviation(deviation: number, decimals: number): string {
   return Math.max(deviation, 10 ** -decimals).toFixed(decimals);
+}
+
+/** A number with one standard deviation: as many decimals as `decimalsFor` says, for both. A unit stands behind a space, a degree sign does not. */
+export function plusMinus(value: number, deviation: number, usual: number): string {
+  const decimals = decimalsFor(deviation, usual);
+  return `${formatNumber(value, decimals)}${NARROW}±${NARROW}${formatDeviation(deviation, decimals)}`;
 }
 
 /** Thousands apart by a narrow space. */

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest';
 import { addFrames, addPoint } from '../../src/document/commands';
 import { takeFollowed, unjudged, withoutSoFar, withSoFar } from '../../src/document/followed';
 import { Store } from '../../src/document/store';
-import { cellOf } from '../../src/document/types';
+import { cellOf, EMPTY_CELL } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { texts } from '../../src/texts/texts';
 
@@ -13,7 +13,7 @@ it('frames that are followed so far are not judged, until the film is', () => {
   const place = (frameId: string) => ({ frameId, component: 'femur' }) as const;
   for (const id of ['a', 'c']) store.amend((doc) => withSoFar(doc, place(id), pose, 'frame 2'));
   expect([unjudged(store.doc, 'femur'), unjudged(store.doc, 'tibia')]).toEqual([2, 0]);
-  store.amend((doc) => withoutSoFar(doc, [[place('a'), null]]));
+  store.amend((doc) => withoutSoFar(doc, [[place('a'), EMPTY_CELL]]));
   expect(unjudged(store.doc, 'femur')).toBe(1);
 });
 

@@ -53,6 +53,8 @@ const doc: Doc = {
   cells: Cells.from<Cell>([[cellKey('ab:0', 'femur'), posed], [cellKey('ab:0', 'tibia'), stale], ['x/femur', loaded]]),
   window: { centre: 2000, width: 4095 },
   rate: 7.5,
+  unread: ['0002.tif'],
+  kneeDoubt: { models: '["femur","tibia"]', sentence: 'are the pictures mirrored?' },
   film: { stated: { display: 'linear', blur: 1.2, constants: { curvature: 0.02, blur: 1, attenuation: { femur: 0.7, tibia: null } } }, known: null },
   marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
 };

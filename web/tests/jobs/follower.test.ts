@@ -184,6 +184,24 @@ describe('following', () => {
     expect(taken).toEqual([]);
   });
 
+  it('takes a cell where a click found nothing, and undo brings its outline back', async () => {
+    const { store, follower, xs } = bench();
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    const outline = { points: [], closed: true, unknownSides: [], laidBy: 'click' } as const;
+    const cell = { outline, result: { kind: 'failed', origin: 'o', sentence: 'Nothing fits.' }, resultOf: outline } as const;
+    store.perform({ label: 'click', apply: (doc) => withCell(doc, place(3), cell) });
+    expect(standingOf(store.doc)).toMatchObject({ step: 'follow', free: 5 });
+    await follower.follow();
+    expect(xs()).toEqual([10, 0, 12, 13, 14, 15]);
+    expect(cellOf(store.doc, 'f3', 'femur').outline).toBeNull();
+    store.undo();
+    expect(cellOf(store.doc, 'f3', 'femur')).toEqual(cell);
+    // Somebody who mended the outline worked on it.
+    const mended = { ...outline, laidBy: 'mixed' } as const;
+    store.perform({ label: 'edit', apply: (doc) => withCell(doc, place(3), { ...cell, outline: mended }) });
+    expect(standingOf(store.doc).free).toBe(4);
+  });
+
   it('fills the frames that nobody set as one step back, with verdicts and what was not found', async () => {
     const { store, follower, xs } = bench([5]);
     store.perform(setPoseByHand(place(1), poseOf(0)));

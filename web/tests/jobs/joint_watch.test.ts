@@ -1,6 +1,8 @@
 import { describe, expect, it, vi } from 'vitest';
+import { plainDoc, readDoc } from '../../src/document/session/session';
 import { setAxes } from '../../src/document/axes';
 import { addFrames, setCalibration, setModel, withCell } from '../../src/document/commands';
+import { toggleFlagged } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import { type Axes, type Calibration, type Candidate, cellOf, type Posed, verdictAlone, verdictOf } from '../../src/document/types';
 import { type Directions, directionsFromWords } from '../../src/geometry/axes';
@@ -75,17 +77,35 @@ describe('joint watch', () => {
     put('a', 'femur', posed(-1000));
     put('a', 'tibia', posed(-1030));
     await vi.waitFor(() => expect(word('a', 'femur')).toBe('doubtful'));
-    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored?');
     const unsure: Posed = { ...posed(-1001), verdict: { word: 'doubtful', because: 'ambiguous' } };
     put('a', 'tibia', unsure);
     store.say('info', 'Followed 1 cell.', undefined, 'film');
     await vi.waitFor(() => expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?'));
-    expect(store.ui.kneeDoubt).toBe('are the pictures mirrored?');
+    expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored?');
     put('a', 'tibia', posed(-1050));
-    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBe('are the pictures mirrored, by more?'));
+    await vi.waitFor(() => expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored, by more?'));
     expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?');
     put('a', 'tibia', posed(-1001));
-    await vi.waitFor(() => expect(store.ui.kneeDoubt).toBeNull());
+    await vi.waitFor(() => expect(store.doc.kneeDoubt).toBeNull());
+  });
+
+  it('tells it also of work that came back, and keeps it over a step back', async () => {
+    const { store, put } = bench();
+    put('a', 'femur', posed(-1000));
+    store.perform(toggleFlagged({ frameId: 'a', component: 'femur' }));
+    put('a', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(store.doc.kneeDoubt).not.toBeNull());
+    store.undo();
+    expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored?');
+    const unsure: Posed = { ...posed(-1001), verdict: { word: 'doubtful', because: 'ambiguous' } };
+    put('a', 'tibia', unsure);
+    await vi.waitFor(() => expect(cellOf(store.doc, 'a', 'femur').result).not.toHaveProperty('aside'));
+    const kept = JSON.stringify(plainDoc(store.doc));
+    const again = bench();
+    again.store.amend(() => readDoc(JSON.parse(kept), 'work'));
+    await vi.waitFor(() => expect(again.store.ui.notice?.text).toBe('Are the pictures mirrored?'));
+    expect(again.store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored?');
   });
 
   it('leaves what is worked out from poses to what they are by themselves', async () => {
@@ -152,6 +172,20 @@ describe('a film that is looked at as if it were flipped', () => {
     await vi.waitFor(() => expect(looks()).toBe(2));
     put('a');
     await vi.waitFor(() => expect(looks()).toBe(3));
+  });
+
+  it('is looked at before what was told of work that came back is taken back', async () => {
+    const { store, put } = filmed(['a']);
+    put('a');
+    await vi.waitFor(() => expect(store.doc.kneeDoubt).not.toBeNull());
+    const kept = JSON.stringify(plainDoc(store.doc));
+    const again = filmed([]);
+    const told: (string | null)[] = [];
+    again.store.subscribe(() => told.push(verdictOf(cellOf(again.store.doc, 'a', 'femur').result)?.because ?? null));
+    again.store.amend(() => readDoc(JSON.parse(kept), 'work'));
+    await vi.waitFor(() => expect(again.store.ui.notice?.text).toMatch(/flipped/));
+    expect(again.looks()).toBe(1);
+    expect(new Set(told)).toEqual(new Set(['both fit better flipped: are the pictures mirrored?']));
   });
 
   it('waits until a hand lets go of the model', async () => {

@@ -4,7 +4,7 @@ import { bare } from '../../src/document/hand_poses';
 import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
-import { curvesShown, impossibilitiesOf, type JointNumbers, linesOf, pointsOf, rangeOf } from '../../src/results/joint_curves';
+import { curvesShown, impossibilitiesOf, type JointNumbers, linesOf, pointAt, pointsOf, rangeOf } from '../../src/results/joint_curves';
 import { faultsOf, inRuns, toldTogether } from '../../src/results/joint_faults';
 import { jointAsked, motionNeeds, runsOf } from '../../src/results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
@@ -44,6 +44,11 @@ describe('curves of a joint', () => {
       const points = pointsOf(doc, numbers(), 'field_medial_mm', { over, rate: 10 });
       expect(runsOf(points).map((run) => run.map(({ index }) => index))).toEqual([[0, 1, 2], [4, 5]]);
     }
+  });
+
+  it('are found by their frame as a search through all of them finds them', () => {
+    const points = pointsOf(film().doc, numbers(), 'field_medial_mm', { over: 'frame', rate: 10 });
+    for (let index = -1; index < 8; index++) expect(pointAt(points, index)).toBe(points.find((point) => point.index === index));
   });
 
   it('run over numbers of frames, seconds, or flexion', () => {

@@ -1,8 +1,9 @@
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { Cells } from '../../src/document/cells';
 import { poseTable } from '../../src/document/session/table';
 import { cellKey, EMPTY_DOC, type Candidate, type Doc, type Failed, type Posed } from '../../src/document/types';
-import { decimalsFor, formatDeviation, formatNumber } from '../../src/texts/numbers';
+import { decimalsFor, formatDeviation, formatNumber, NARROW, plusMinus } from '../../src/texts/numbers';
 
 describe('numbers', () => {
   it.each([
@@ -17,6 +18,17 @@ describe('numbers', () => {
     [0.04, 1, 2],
   ])('with a deviation of %s and usually %i decimals have %i', (deviation, usual, wanted) => {
     expect(decimalsFor(deviation, usual)).toBe(wanted);
+  });
+
+  it('with a standard deviation are written as report and commands write them', () => {
+    const text = readFileSync(new URL('../../../tests/corpus/plus_minus.txt', import.meta.url), 'utf8');
+    const lines = text.trimEnd().split('\n').slice(1);
+    expect(lines.length).toBeGreaterThan(10);
+    for (const line of lines) {
+      const [numbers = '', written] = line.split(': ');
+      const [value = NaN, deviation = NaN, usual = NaN] = numbers.split(' ').map(Number);
+      expect(plusMinus(value, deviation, usual).replaceAll(NARROW, ' '), line).toBe(written);
+    }
   });
 
   it('have a true minus sign, and none before zero', () => {

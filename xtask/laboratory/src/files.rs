@@ -8,7 +8,6 @@ mod listing;
 mod mask;
 mod model;
 mod name;
-mod name_order;
 mod pose_rows;
 mod poses;
 mod role;
@@ -20,6 +19,7 @@ pub use fluoropose_noise::MaskBuffer;
 pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
+pub use fluoropose_decode::name_order;
 pub use frames::{Frames, grey, stated_frames_per_s};
 pub use listing::{files_in, gaps_in};
 pub use mask::read_mask;
@@ -28,7 +28,6 @@ pub use model::{
     read_model_of, shape_doubt,
 };
 pub use name::check_file_name;
-pub use name_order::name_order;
 pub use pose_rows::{PoseRows, read_poses_of};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;

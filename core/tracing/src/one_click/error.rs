@@ -31,6 +31,9 @@ pub enum OneClickError {
         "nothing of an implant's size is set off from its surroundings there; click in the middle of the implant, or draw a box around it"
     )]
     NoRegion,
+    /// The frame shows nothing at all.
+    #[error("{}", fluoropose::image::blank::BLANK)]
+    Blank,
     /// There is a region at the prompt, but it is not this component.
     #[error(
         "what is there does not look like this component from any view of its library; click in the middle of the implant, or trace it"

@@ -6,6 +6,7 @@ use super::memory::{OneClickMemory, OneClickNeeds};
 use super::observation::Observation;
 use super::state::{LOCATED, OneClick, REGIONS, STARTS, Stage};
 use fluoropose::finder::Component;
+use fluoropose::image::blank::{ONE_GREY, is_blank};
 
 /// No further pass is needed where the outline of a first pose lies near edges by the first fraction, and covers its
 /// region by the second.
@@ -92,7 +93,7 @@ impl OneClick {
         match self.stage {
             Stage::Preprocess(pass) => Ok(self.preprocess_pass(pass, observation, memory)),
             Stage::Match(pass) => self.match_next(pass, observation, None, memory),
-            Stage::Score(pass) => self.after_pass(pass, false),
+            Stage::Score(pass) => self.after_pass(pass, observation, false),
             _ => Ok(Stage::Done),
         }
     }
@@ -112,7 +113,7 @@ impl OneClick {
                     self.score(&located, observation, component, memory)?;
                     Stage::Score(pass)
                 }
-                None => self.after_pass(pass, true)?,
+                None => self.after_pass(pass, observation, true)?,
             },
             Stage::Refine(at) => match self.worth_refining(at) {
                 Some(start) => {
@@ -213,7 +214,12 @@ impl OneClick {
         Ok(Stage::Match(pass))
     }
 
-    fn after_pass(&mut self, pass: usize, with_component: bool) -> Result<Stage, OneClickError> {
+    fn after_pass(
+        &mut self,
+        pass: usize,
+        observation: &Observation<'_>,
+        with_component: bool,
+    ) -> Result<Stage, OneClickError> {
         let [near, covered] = SEEN;
         let seen = |best: &Start| best.support.fraction >= near && best.overlap >= covered;
         let enough = self.starts.first().is_some_and(seen);
@@ -221,7 +227,7 @@ impl OneClick {
             return Ok(Stage::Preprocess(pass + 1));
         }
         if self.sharpest.is_none() && !with_component {
-            return Err(OneClickError::NoRegion);
+            return Err(blank_or(OneClickError::NoRegion, observation));
         }
         Ok(Stage::Refine(0))
     }
@@ -240,8 +246,16 @@ impl OneClick {
         match self.answers.is_empty() {
             false => Ok(Stage::Done),
             true if self.begin_otherwise(observation.camera)? => Ok(Stage::Preprocess(0)),
-            true if self.sharpest.is_none() => Err(OneClickError::NoRegion),
-            true => Err(OneClickError::NoFit),
+            true if self.sharpest.is_none() => Err(blank_or(OneClickError::NoRegion, observation)),
+            true => Err(blank_or(OneClickError::NoFit, observation)),
         }
+    }
+}
+
+/// Why there is no answer: noise of a frame that shows nothing has regions too.
+fn blank_or(why: OneClickError, observation: &Observation<'_>) -> OneClickError {
+    match is_blank(observation.frame, ONE_GREY) {
+        true => OneClickError::Blank,
+        false => why,
     }
 }

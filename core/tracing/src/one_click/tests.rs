@@ -392,7 +392,7 @@ fn what_nothing_near_explains_is_looked_for_farther_away() {
     }
     let flat = std::vec![700u16; SIDE * SIDE];
     let error = bench.work(&flat, prompts()[0], Polarity::DarkImplant, true);
-    assert_eq!(error.err(), Some(OneClickError::NoRegion));
+    assert_eq!(error.err(), Some(OneClickError::Blank));
 }
 
 #[test]
@@ -411,7 +411,17 @@ fn where_there_is_no_implant_a_sentence_says_so() {
     let flat = std::vec![700u16; SIDE * SIDE];
     let prompt = Prompt::Click(Point::new(200.0, 200.0));
     let error = bench.work(&flat, prompt, Polarity::DarkImplant, true).err();
-    assert_eq!(error, Some(OneClickError::NoRegion));
+    assert_eq!(error, Some(OneClickError::Blank));
+    let noise: Vec<u16> = (0..SIDE * SIDE).map(|at| (at * 7919 % 3) as u16).collect();
+    let error = bench
+        .work(&noise, prompt, Polarity::DarkImplant, true)
+        .err();
+    assert_eq!(error, Some(OneClickError::Blank));
+    let slope: Vec<u16> = (0..SIDE * SIDE).map(|at| (at % SIDE) as u16).collect();
+    let error = bench
+        .work(&slope, prompt, Polarity::DarkImplant, true)
+        .err();
+    assert!(nothing.contains(&error));
 }
 
 #[test]

@@ -24,6 +24,7 @@ import {
   type FrameEntry,
   type GreyWindow,
   type Judged,
+  type KneeDoubt,
   type LibrarySpec,
   type Mark,
   type OnFrame,
@@ -315,6 +316,8 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   name: text,
   side: oneOf('left', 'right', 'unknown'),
   frames: list(readFrame),
+  // Sessions from before these two were kept have none.
+  unread: missingAs([], list(text)),
   calibration: nullable(object<Calibration>({ name: text, text })),
   components: object({ femur: readComponent, tibia: readComponent }),
   cells: readCells,
@@ -326,6 +329,7 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   // Sessions from before the speed of the film was kept do not say it.
   rate: optional(number),
   film: readFilm,
+  kneeDoubt: optional(object<KneeDoubt>({ models: text, sentence: text })),
 });
 
 /** The reverse of `plainDoc`. */

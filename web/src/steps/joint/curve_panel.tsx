@@ -2,9 +2,9 @@ import type { ComponentChildren } from 'preact';
 import { useMemo } from 'preact/hooks';
 import type { Theme } from '../../document/store';
 import type { Doc } from '../../document/types';
-import { type Along, type CurvePoint, CURVES, type JointNumbers, pointsOf, rangeOf } from '../../results/joint_curves';
+import { type Along, type CurvePoint, CURVES, type JointNumbers, pointAt, pointsOf, rangeOf } from '../../results/joint_curves';
 import type { CurveName } from '../../terms/joint';
-import { formatDeviation, formatNumber } from '../../texts/numbers';
+import { formatNumber, plusMinus } from '../../texts/numbers';
 import { later } from '../../texts/later';
 import { Icon } from '../../controls/icons';
 import { type Line, Plot } from './plot';
@@ -35,6 +35,8 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
     [cells, marks, frames, numbers, along, columns],
   );
   const range = useMemo(() => rangeOf(lines.flatMap(({ points }) => points)), [lines]);
+  // With every move of the mouse another frame is shown, and nothing else changes.
+  const label = useMemo(() => chartLabel(name, lines, along), [name, lines, along]);
   return (
     <section class="joint-panel" aria-label={title}>
       <div class="joint-panel-head">
@@ -49,7 +51,7 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
                   <InWords full={words.of[ink]} short={words.ofShort[ink]} />{' '}
                 </>
               )}
-              {shownValue(points.find(({ index }) => index === shown))}
+              {shownValue(pointAt(points, shown))}
             </span>
           ))}
           {name === 'liftOff' && <span>{beyond(doc, numbers, shown)}</span>}
@@ -59,7 +61,7 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
         </button>
       </div>
       <Plot
-        label={chartLabel(name, lines, along)}
+        label={label}
         lines={lines}
         range={range}
         over={along.over}
@@ -107,9 +109,7 @@ function beyond(doc: Doc, numbers: JointNumbers, shown: number): ComponentChildr
   return <InWords full={later.curves.beyond(percent)} short={later.curves.beyondShort(percent)} />;
 }
 
-/** To hundredths, as tables of joints have it; a band wider than that is shown as it is. */
 function shownValue(point: CurvePoint | undefined): string {
   if (!point) return '–';
-  const value = formatNumber(point.value, 2);
-  return Number.isFinite(point.deviation) ? `${value} ±${formatDeviation(point.deviation, 2)}` : value;
+  return Number.isFinite(point.deviation) ? plusMinus(point.value, point.deviation, 2) : formatNumber(point.value, 2);
 }

@@ -92,7 +92,7 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
         ))}
         {!large && numbers.hasPlate && <Tray doc={doc} numbers={numbers} shown={hovered ?? state.ui.frameIndex} onPick={(index) => store.goTo(index)} />}
       </div>
-      <Wrong numbers={numbers} doc={doc} kneeDoubt={state.ui.kneeDoubt} />
+      <Wrong numbers={numbers} doc={doc} kneeDoubt={doc.kneeDoubt?.sentence ?? null} />
       <Legend numbers={numbers} doc={doc} hovered={hovered} />
     </>
   );
@@ -103,8 +103,10 @@ function Wrong({ numbers, doc, kneeDoubt }: { numbers: JointNumbers; doc: Doc; k
   const words = later.curves;
   const told = useMemo(() => impossibilitiesOf(doc, numbers), [doc.frames, numbers]);
   const { of, impossible, waiting } = numbers;
-  const trusts = jointTrusts(doc);
-  const none = of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
+  const none = useMemo(() => {
+    const trusts = jointTrusts(doc);
+    return of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
+  }, [doc, numbers]);
   if (told.length === 0 && !none && kneeDoubt === null) return null;
   return (
     <div class="joint-wrong" role="status">

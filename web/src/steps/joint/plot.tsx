@@ -2,7 +2,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Theme } from '../../document/store';
-import type { CurvePoint } from '../../results/joint_curves';
+import { type CurvePoint, pointAt } from '../../results/joint_curves';
 import type { Over } from '../../terms/joint';
 import { formatNumber } from '../../texts/numbers';
 import { later } from '../../texts/later';
@@ -147,18 +147,18 @@ function pick(plot: uPlot, props: PlotProps): void {
 
 /** Rings round the frame on view, and round the one that the mouse is at: no part of the canvas, which stays as it is. */
 function placeMarks(plot: uPlot, lines: readonly Line[], current: number, shown: number): void {
-  for (const old of plot.over.querySelectorAll('.joint-mark')) old.remove();
+  const old = [...plot.over.getElementsByClassName('joint-mark')] as HTMLElement[];
   for (const { points } of lines) {
     for (const index of new Set([current, shown])) {
-      const point = points.find((point) => point.index === index);
+      const point = pointAt(points, index);
       if (!point || point.impossible) continue;
-      const mark = document.createElement('i');
+      const mark = old.shift() ?? plot.over.appendChild(document.createElement('i'));
       mark.className = index === current ? 'joint-mark' : 'joint-mark hovered';
       mark.style.left = `${plot.valToPos(point.x, 'x')}px`;
       mark.style.top = `${plot.valToPos(point.value, 'y')}px`;
-      plot.over.append(mark);
     }
   }
+  for (const mark of old) mark.remove();
 }
 
 function sizeOf(element: HTMLElement): { width: number; height: number } {

@@ -1,4 +1,4 @@
-import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../../pkg/decode/fluoropose_decode.js';
+import init, { decode_model, FrameFile, gapsAmong, sniff, type DecodedFrame as RawFrame } from '../../pkg/decode/fluoropose_decode.js';
 import wasmAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { DecodedFrame, DecodeProtocol, FileKind, StatedGeometry } from '../protocol/decode';
 import { printOf } from './print';
@@ -13,6 +13,10 @@ serve<DecodeProtocol>({
   sniff: async ({ head, length, name }) => {
     await ready;
     return kindOf(sniff(head, length, name));
+  },
+  gapsAmong: async ({ names }) => {
+    await ready;
+    return gapsAmong([...names]) ?? null;
   },
   frames: async ({ blob, name }, context) => {
     await ready;

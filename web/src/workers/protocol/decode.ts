@@ -37,6 +37,8 @@ export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' 
 export interface DecodeProtocol {
   /** By the file's beginning and its length, bytes. */
   sniff: { input: { head: Uint8Array<ArrayBuffer>; length: number; name: string }; output: FileKind; progress: never };
+  /** What is missing among files that are numbered, a sentence without its full stop; names in their order. */
+  gapsAmong: { input: { names: readonly string[] }; output: string | null; progress: never };
   /** Frames arrive one by one as progress. */
   frames: {
     input: { blob: Blob; name: string };

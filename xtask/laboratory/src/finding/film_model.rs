@@ -14,6 +14,7 @@ use fluoropose::pose::Pose;
 use fluoropose::refine::{
     CameraView, ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
 };
+use fluoropose_report::plus_minus;
 use rayon::prelude::*;
 
 use super::beside::{Beside, hidden};
@@ -210,14 +211,14 @@ fn words(film: &FilmEstimate, parts: &[Filmed<'_>]) -> String {
     let metal = parts.iter().enumerate().map(|(number, part)| {
         let (name, attenuation) = (part.name, film.attenuation[number]);
         let percent = 100.0 * sure(2 + number);
-        format!(", {name} {attenuation:.2} a mm ±{percent:.0} %")
+        format!(", {name} {attenuation:.2} a mm ± {percent:.0} %")
     });
     let metal: String = metal.collect();
     let FilmConstants { curvature, .. } = film.constants;
     format!(
-        "{film} ±{:.0} %{metal}; curvature {curvature:.4} ±{:.4} a grey value, {} profiles, {:.1} grey values unexplained",
+        "{film} ± {:.0} %{metal}; curvature {} a grey value, {} profiles, {:.1} grey values unexplained",
         100.0 * sure(1),
-        sure(0),
+        plus_minus(curvature, sure(0), 4),
         film.profiles,
         film.residual
     )

@@ -3,6 +3,7 @@
 use fluoropose::finder::onto_target;
 use fluoropose::image::silhouette::CommonOffset;
 use fluoropose::refine::{CameraView, RefineBuffers, outline_offset};
+use fluoropose_report::plus_minus;
 use rayon::prelude::*;
 
 use super::film::FrameFound;
@@ -61,7 +62,7 @@ pub fn offset_words(common: CommonOffset) -> String {
     let side = if common.px < 0.0 { "inside" } else { "outside" };
     let CommonOffset { px, deviation_px } = common;
     format!(
-        "masks lie {:.2} px {side} of the outlines that the film shows, ±{deviation_px:.2}",
-        px.abs()
+        "masks lie {} px {side} of the outlines that the film shows",
+        plus_minus(px.abs(), deviation_px, 2)
     )
 }

@@ -7,6 +7,7 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, Refined};
+use fluoropose_report::plus_minus;
 
 use crate::files::{read, read_calibration, read_model, write_poses};
 
@@ -125,22 +126,19 @@ fn describe(
 ) {
     let pose = EulerPose::from(refined.pose);
     let sure = covariance.map(|covariance| covariance.deviations(&refined.pose, middle));
-    let sure = sure.unwrap_or_default();
+    let number = |value: f64, deviation: Option<f64>| match deviation {
+        Some(deviation) => plus_minus(value, deviation, 3),
+        None => format!("{value:.3}"),
+    };
     println!(
-        "{}\n  x {:.3} +- {:.3}  y {:.3} +- {:.3}  z {:.3} +- {:.3} mm   z {:.3} +- {:.3}  x {:.3} +- {:.3}  y {:.3} +- {:.3} deg   {:.3} px residual",
+        "{}\n  x {}  y {}  z {} mm   z {}  x {}  y {} deg   {:.3} px residual",
         path.file_name().unwrap_or_default().display(),
-        pose.x_mm,
-        sure.x_mm,
-        pose.y_mm,
-        sure.y_mm,
-        pose.z_mm,
-        sure.z_mm,
-        pose.z_rot_deg,
-        sure.z_rot_deg,
-        pose.x_rot_deg,
-        sure.x_rot_deg,
-        pose.y_rot_deg,
-        sure.y_rot_deg,
-        refined.residual_px,
+        number(pose.x_mm, sure.map(|sure| sure.x_mm)),
+        number(pose.y_mm, sure.map(|sure| sure.y_mm)),
+        number(pose.z_mm, sure.map(|sure| sure.z_mm)),
+        number(pose.z_rot_deg, sure.map(|sure| sure.z_rot_deg)),
+        number(pose.x_rot_deg, sure.map(|sure| sure.x_rot_deg)),
+        number(pose.y_rot_deg, sure.map(|sure| sure.y_rot_deg)),
+        refined.residual_px
     );
 }

@@ -11,6 +11,7 @@ use fluoropose_distortion::correction::{Corrected, ORDERS, fit};
 use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
 use fluoropose_distortion::plate::{Distances, PlateCamera, camera};
+use fluoropose_report::plus_minus;
 
 use crate::files::{name_of, read, write_distortion, write_text};
 
@@ -154,16 +155,17 @@ fn describe_distortion(corrected: &Corrected) {
 
 fn describe_camera(found: &PlateCamera) {
     println!(
-        "pixel pitch {:.5} +- {:.5} mm (and the relative error of the distances); {} beads, {:.3} px residual; plate tilted {:.1} deg",
-        found.pitch_mm, found.pitch_deviation_mm, found.used, found.residual_px, found.tilt_deg
+        "pixel pitch {} mm (and the relative error of the distances); {} beads, {:.3} px residual; plate tilted {:.1} deg",
+        plus_minus(found.pitch_mm, found.pitch_deviation_mm, 5),
+        found.used,
+        found.residual_px,
+        found.tilt_deg
     );
     match found.offset_is_measured {
         true => println!(
-            "principal point {:.2} +- {:.2}, {:.2} +- {:.2} mm from the frame's middle",
-            found.offset_mm[0],
-            found.offset_deviation_mm[0],
-            found.offset_mm[1],
-            found.offset_deviation_mm[1]
+            "principal point {}, {} mm from the frame's middle",
+            plus_minus(found.offset_mm[0], found.offset_deviation_mm[0], 2),
+            plus_minus(found.offset_mm[1], found.offset_deviation_mm[1], 2)
         ),
         false => println!(
             "principal point: the frame's middle is taken, a plate this level does not show it"

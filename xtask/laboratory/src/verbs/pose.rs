@@ -8,6 +8,7 @@ use fluoropose::finder::choice::DECISIVE_RATIO;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose_report::plus_minus;
 
 use crate::exit;
 
@@ -230,20 +231,11 @@ fn describe(frame: &FrameFound, decision: Option<&Decision>, row: &FrameReport, 
     println!("  {}: {}", row.verdict, row.because);
 }
 
-/// A standard deviation that is never rounded away: two places, or as many as show its first two digits.
-fn deviation(sd: f64) -> String {
-    let places = match sd > 0.0 && sd < 0.1 {
-        true => (1.0 - sd.log10().floor()).min(9.0) as usize,
-        false => 2,
-    };
-    format!("{sd:.places$}")
-}
-
 fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
     let values = Numbers::from(candidate.pose).all();
     let deviations = Numbers::deviations(candidate, middle).map(|sd| sd.all());
     let number = |k: usize| match deviations {
-        Some(sd) => format!("{:8.2} ±{}", values[k], deviation(sd[k])),
+        Some(sd) => format!("{:>15}", plus_minus(values[k], sd[k], 2)),
         None => format!("{:8.2}", values[k]),
     };
     let fit = match candidate.refined {
@@ -269,23 +261,4 @@ fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
         number(4),
         number(5),
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::deviation;
-
-    #[test]
-    fn a_small_deviation_is_not_rounded_away() {
-        for (sd, words) in [
-            (1.234, "1.23"),
-            (0.1, "0.10"),
-            (0.0436, "0.044"),
-            (0.000_371, "0.00037"),
-            (0.0, "0.00"),
-            (f64::NAN, "NaN"),
-        ] {
-            assert_eq!(deviation(sd), words);
-        }
-    }
 }

@@ -7,8 +7,8 @@ use anyhow::{Context, Result, bail};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose_report::Input;
 use fluoropose_report::cell::plain;
+use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
     Component, PoseRows, Role, Study, csv_fields, name_of, read, read_poses, read_poses_of,
@@ -149,7 +149,10 @@ fn constants_of_film(table: &str) -> Vec<(String, String)> {
             return None;
         };
         let words = format!(
-            "display bent by {curvature:.4} ±{sd_curvature:.4} a grey value, blur {blur:.2} ±{sd_blur:.2} px, metal {attenuation:.2} ±{sd_attenuation:.2} a mm"
+            "display bent by {} a grey value, blur {} px, metal {} a mm",
+            plus_minus(curvature, sd_curvature, 4),
+            plus_minus(blur, sd_blur, 2),
+            plus_minus(attenuation, sd_attenuation, 2)
         );
         Some((plain(name).to_owned(), words))
     };

@@ -134,7 +134,7 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
         "empty everywhere: 7",
         "femoral covariances",
         "film, femur",
-        "blur 1.40 ±0.07 px",
+        "blur 1.40 ± 0.07 px",
         "3 Hz",
     ] {
         assert!(report.contains(words), "{words}");

@@ -132,6 +132,7 @@ impl Record for Looked {
             Ok(found) => (0.0, found.numbers()),
             Err(Missing::Outside) => (1.0, Vec::new()),
             Err(Missing::Hidden) => (2.0, Vec::new()),
+            Err(Missing::Blank) => (3.0, Vec::new()),
         };
         let mut numbers = vec![flag(self.ordinary), flag(self.searched), self.known, which];
         numbers.extend(rest);
@@ -144,6 +145,7 @@ impl Record for Looked {
         let found = match which as u8 {
             0 => Ok(FramePose::from_numbers(reader.0)?),
             1 => Err(Missing::Outside),
+            3 => Err(Missing::Blank),
             _ => Err(Missing::Hidden),
         };
         Some(Self {
@@ -226,7 +228,12 @@ mod tests {
         };
         for covariance in [found.covariance, None] {
             found.covariance = covariance;
-            for found in [Ok(found), Err(Missing::Hidden), Err(Missing::Outside)] {
+            for found in [
+                Ok(found),
+                Err(Missing::Hidden),
+                Err(Missing::Outside),
+                Err(Missing::Blank),
+            ] {
                 let looked = Looked {
                     found,
                     ordinary: true,
