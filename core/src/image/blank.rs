@@ -42,7 +42,7 @@ mod tests {
         let pixels: std::vec::Vec<u16> = (0..SIDE * SIDE)
             .map(|at| other(at % SIDE, at / SIDE).unwrap_or(30 + (at * 7919 % 3) as u16))
             .collect();
-        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).unwrap();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("a frame");
         is_blank(&frame, ONE_GREY)
     }
 
