@@ -1,4 +1,4 @@
-import { checkHints, checkOptions, checkOutline, checkPose } from './asked.js';
+import { checkHints, checkImage, checkOptions, checkOutline, checkPose } from './asked.js';
 import { decodeModel } from './decode.js';
 import { filmNumbers, withImage } from './film.js';
 import { buildLibrary } from './library.js';
@@ -30,15 +30,16 @@ export async function openImplant(options: ImplantOptions): Promise<Implant> {
 export class Implant {
   /** The library's bytes, to be kept for the next time. */
   readonly library: Uint8Array;
-  readonly #matcher: Matcher;
+  readonly #opened: Matcher;
   readonly #calibration: string;
   readonly #frame: Size;
+  #closed = false;
 
   /** Use `openImplant`. */
   constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size) {
     this.library = library;
-    this.#matcher = new Matcher(library);
-    this.#matcher.takeModel(mesh.vertices, mesh.triangles);
+    this.#opened = new Matcher(library);
+    this.#opened.takeModel(mesh.vertices, mesh.triangles);
     this.#calibration = calibration;
     this.#frame = frame;
   }
@@ -50,7 +51,7 @@ export class Implant {
    */
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     checkOutline(outline);
-    checkHints(hints, 'pose');
+    checkHints(hints, this.#frame, 'pose');
     const around = surroundings(hints);
     try {
       const { image, film, bright } = hints;
@@ -67,13 +68,14 @@ export class Implant {
   /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
   preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
     checkOutline(outline);
-    checkHints(hints, 'preview');
+    checkHints(hints, this.#frame, 'preview');
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
   }
 
   /** Profiles of a frame across the model's outline at a pose: what `estimateFilm` reads. */
   profiles(image: Grey, pose: Pose): Float32Array {
     checkPose(pose, 'profiles: pose');
+    checkImage(image, this.#frame, 'profiles');
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
     try {
@@ -83,8 +85,15 @@ export class Implant {
     }
   }
 
+  /** Lets go of WebAssembly's memory; `library` stays. To close it twice does nothing more. */
   close(): void {
-    this.#matcher.free();
+    if (!this.#closed) this.#opened.free();
+    this.#closed = true;
+  }
+
+  get #matcher(): Matcher {
+    if (this.#closed) throw new Error('This implant was closed and finds no poses any more: open it again, openImplant with its library is quick');
+    return this.#opened;
   }
 
   #look(outline: readonly Point[], { unknownSides = [], laidBy = 'hand' }: Hints, find: (traced: Traced) => Match): FoundPose {
