@@ -64,6 +64,20 @@ test('the npm module', { timeout: 3 * PATIENCE }, async (t) => {
     await assert.rejects(run(process.execPath, mistaken, { cwd: folder }), /Error: the model/);
   });
 
+  await t.test('what is unusual of model and camera is told', async () => {
+    const { openImplant } = await import(pathToFileURL(join(folder, 'node_modules/fluoropose/node.js')).href);
+    const [model, calibration] = [await readFile(join(folder, 'femur.stl')), await readFile(join(folder, 'calibration.txt'), 'utf8')];
+    const opened = async (/** @type {Buffer} */ model, /** @type {string} */ calibration) => {
+      const femur = await openImplant({ model, calibration, frame: { width: 1024, height: 1024 }, views: { x: [0, 1, 1], y: [0, 1, 1] } });
+      femur.close();
+      return femur.remarks;
+    };
+    assert.deepEqual(await opened(model, calibration), []);
+    const [size, ...camera] = await opened(inCentimetres(model), 'JT_INTCALIB\n1198\n-200\n200\n0.4\n');
+    assert.match(size, /^model: the model is .* no knee component's size in millimetres: is the file in centimetres or inches\?/);
+    assert.match(camera.join(), /^camera: the principal point, column 12\.0 and row 12\.0, lies far from the middle of a frame of 1024 x 1024 pixels/);
+  });
+
   await t.test('an image that is none, and calls after close, are told in sentences', async () => {
     const { openImplant, estimateFilm } = await import(pathToFileURL(join(folder, 'node_modules/fluoropose/node.js')).href);
     const { frame, outline } = JSON.parse(await readFile(join(folder, 'outline.json'), 'utf8'));
@@ -101,6 +115,15 @@ async function exampleFolder() {
   await symlink(join(setting('FLUOROPOSE_PACKAGE'), 'npm'), join(folder, 'node_modules/fluoropose'), 'junction');
   for (const name of ['femur.stl', 'calibration.txt']) await writeFile(join(folder, name), (await demoFile(name)).buffer);
   return folder;
+}
+
+/** A binary STL file, its lengths divided by ten. @param {Buffer} model */
+function inCentimetres(model) {
+  const [smaller, head, triangle] = [Buffer.from(model), 84, 50];
+  for (let start = head; start < smaller.length; start += triangle) {
+    for (let at = start; at < start + 48; at += 4) smaller.writeFloatLE(smaller.readFloatLE(at) / 10, at);
+  }
+  return smaller;
 }
 
 /** The compiler accepts a right use and refuses a wrong one. @param {string} folder */

@@ -2,7 +2,7 @@ import { checkHints, checkImage, checkOptions, checkOutline, checkPose } from '.
 import { decodeModel } from './decode.js';
 import { filmNumbers, withImage } from './film.js';
 import { buildLibrary } from './library.js';
-import init, { HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
+import init, { cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
 import type { Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
 
@@ -21,25 +21,33 @@ export async function openImplant(options: ImplantOptions): Promise<Implant> {
   await (ready ??= init({ module_or_path: read(address) }));
   const { model, calibration, frame, signal } = options;
   signal?.throwIfAborted();
-  const mesh = isMesh(model) ? model : await decodeModel(new Uint8Array(model));
+  const { mesh, notes } = isMesh(model) ? { mesh: model, notes: [] } : await decodeModel(new Uint8Array(model));
   const library = options.library ?? (await buildLibrary(mesh, options));
-  return new Implant(mesh, library, calibration, frame);
+  return new Implant(mesh, library, calibration, frame, notes);
 }
 
 /** One component with its library. Its memory is WebAssembly's: call `close` when it is no longer wanted. */
 export class Implant {
   /** The library's bytes, to be kept for the next time. */
   readonly library: Uint8Array;
+  /**
+   * What a person should know of model and calibration, a sentence each: holes, a size that is no knee component's in millimetres, a
+   * camera of unusual numbers. Empty where nothing is unusual; poses are found all the same.
+   */
+  readonly remarks: readonly string[];
   readonly #opened: Matcher;
   readonly #calibration: string;
   readonly #frame: Size;
   #closed = false;
 
   /** Use `openImplant`. */
-  constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size) {
+  constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size, notes: readonly string[] = []) {
+    const camera = cameraDoubts(calibration, frame.width, frame.height);
     this.library = library;
     this.#opened = new Matcher(library);
     this.#opened.takeModel(mesh.vertices, mesh.triangles);
+    const model = [...notes, ...this.#opened.remarks];
+    this.remarks = [...model.map((remark) => `model: ${remark}`), ...camera.map((doubt) => `camera: ${doubt}`)];
     this.#calibration = calibration;
     this.#frame = frame;
   }
