@@ -339,6 +339,8 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     folder.write("study.toml", study);
     let (code, said) = folder.run(&["track", "--study", "study.toml", "--out", "tracked"]);
     assert_eq!(code, 7, "{said}");
+    let taken = "192 x 192 pixels are taken for the whole frame, 384 x 384 mm of the detector";
+    assert!(said.contains(taken), "{said}");
     let table = folder.read("tracked/track.csv");
     let last = table.lines().last().expect("a row");
     assert!(last.ends_with(",\"1.png\",1"), "{table}");
