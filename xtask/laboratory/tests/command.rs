@@ -353,6 +353,13 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     let told = "femur:1:5,5: the click leads to no pose; what tracked holds stays as it was";
     assert!(code == 1 && said.contains(told), "{code}: {said}");
     assert_eq!(folder.read("tracked/track.csv"), kept);
+    folder.write("inches.toml", &format!("{study}unit = 'in'\n"));
+    let (code, said) = folder.run(&["track", "--study", "inches.toml", "--out", "inches"]);
+    let named = "femur.stl, read with unit = \"in\" (under its [[component]] in the study): the distance of";
+    assert!(
+        code == 1 && said.contains("the component femur, ") && said.contains(named),
+        "{code}: {said}"
+    );
     let beyond = format!("femur:1:{side},20");
     let track = [
         "track",
