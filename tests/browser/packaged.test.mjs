@@ -1,7 +1,7 @@
 /** What `cargo xtask package` makes: the page in one file, opened from the disk, and the npm module. */
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
-import { cp, mkdir, symlink, writeFile } from 'node:fs/promises';
+import { cp, mkdir, readFile, symlink, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
@@ -64,6 +64,46 @@ test('the npm module', { timeout: 3 * PATIENCE }, async (t) => {
     await assert.rejects(run(process.execPath, mistaken, { cwd: folder }), /Error: the model/);
   });
 
+  await t.test('what is unusual of model and camera is told', async () => {
+    const { openImplant } = await import(pathToFileURL(join(folder, 'node_modules/fluoropose/node.js')).href);
+    const [model, calibration] = [await readFile(join(folder, 'femur.stl')), await readFile(join(folder, 'calibration.txt'), 'utf8')];
+    const opened = async (/** @type {Buffer} */ model, /** @type {string} */ calibration) => {
+      const femur = await openImplant({ model, calibration, frame: { width: 1024, height: 1024 }, views: { x: [0, 1, 1], y: [0, 1, 1] } });
+      femur.close();
+      return femur.remarks;
+    };
+    assert.deepEqual(await opened(model, calibration), []);
+    const [size, ...camera] = await opened(inCentimetres(model), 'JT_INTCALIB\n1198\n-200\n200\n0.4\n');
+    assert.match(size, /^model: the model is .* no knee component's size in millimetres: is the file in centimetres or inches\?/);
+    assert.match(camera.join(), /^camera: the principal point, column 12\.0 and row 12\.0, lies far from the middle of a frame of 1024 x 1024 pixels/);
+  });
+
+  await t.test('an image that is none, and calls after close, are told in sentences', async () => {
+    const { openImplant, estimateFilm } = await import(pathToFileURL(join(folder, 'node_modules/fluoropose/node.js')).href);
+    const { frame, outline } = JSON.parse(await readFile(join(folder, 'outline.json'), 'utf8'));
+    const [model, calibration] = [await readFile(join(folder, 'femur.stl')), await readFile(join(folder, 'calibration.txt'), 'utf8')];
+    const femur = await openImplant({ model, calibration, frame, views: { x: [0, 1, 1], y: [0, 1, 1] } });
+    const pixels = frame.width * frame.height;
+    const random = Float32Array.from({ length: pixels }, (_, pixel) => (pixel * 7919) % 251);
+    const wrong = /** @type {const} */ ([
+      [random, /image is of type Float32Array; .* Uint8Array \(8 bits\) or a Uint16Array/],
+      [new Float32Array(pixels), /type Float32Array/],
+      [new Uint8ClampedArray(4 * pixels), /type Uint8ClampedArray/],
+      [Array.from(random), /type Array/],
+      [Uint8Array.from(random).subarray(1), new RegExp(`image has ${pixels - 1} values, and a frame of 1024 x 1024 pixels has ${pixels}`)],
+      [new Uint16Array(pixels).fill(7), /image has the grey value 7 everywhere/],
+    ]);
+    for (const [image, sentence] of wrong) {
+      assert.throws(() => femur.pose(outline, { image }), sentence);
+      assert.throws(() => estimateFilm([{ implant: femur, image, pose: truth }]), sentence);
+    }
+    femur.close();
+    femur.close();
+    for (const call of [() => femur.pose(outline), () => femur.preview(outline), () => femur.profiles(Uint8Array.from(random), truth)]) {
+      assert.throws(call, /This implant was closed .* open it again/);
+    }
+  });
+
   await t.test('its types are those of its three lines', () => typesAreRight(folder));
 });
 
@@ -75,6 +115,15 @@ async function exampleFolder() {
   await symlink(join(setting('FLUOROPOSE_PACKAGE'), 'npm'), join(folder, 'node_modules/fluoropose'), 'junction');
   for (const name of ['femur.stl', 'calibration.txt']) await writeFile(join(folder, name), (await demoFile(name)).buffer);
   return folder;
+}
+
+/** A binary STL file, its lengths divided by ten. @param {Buffer} model */
+function inCentimetres(model) {
+  const [smaller, head, triangle] = [Buffer.from(model), 84, 50];
+  for (let start = head; start < smaller.length; start += triangle) {
+    for (let at = start; at < start + 48; at += 4) smaller.writeFloatLE(smaller.readFloatLE(at) / 10, at);
+  }
+  return smaller;
 }
 
 /** The compiler accepts a right use and refuses a wrong one. @param {string} folder */

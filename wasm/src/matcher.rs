@@ -101,6 +101,14 @@ impl Matcher {
         Ok(())
     }
 
+    /// What a person should know of the model that was lent, in sentences without their full stops: holes, a size that is no
+    /// knee component's.
+    #[wasm_bindgen(getter)]
+    pub fn remarks(&self) -> Vec<String> {
+        let model = self.model.as_ref();
+        model.map_or_else(Vec::new, WorkingModel::remarks)
+    }
+
     /// A copy of the library's bytes.
     #[wasm_bindgen(getter)]
     pub fn bytes(&self) -> Vec<u8> {

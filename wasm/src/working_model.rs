@@ -146,6 +146,11 @@ impl WorkingModel {
         self.owned.as_model()
     }
 
+    /// What a person should know of it.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        self.owned.remarks()
+    }
+
     /// Calls `with` with the component that a library and this model make, and memory to find it.
     pub(crate) fn with_component<T>(
         &mut self,

@@ -115,6 +115,7 @@ fn listener(untold: &Arc<Mutex<Untold>>) -> Listener {
         let mut untold = untold.lock().unwrap_or_else(PoisonError::into_inner);
         match told {
             Told::Remark(remark) => untold.remarks.push(remark),
+            Told::Taken(_) => {}
             Told::Step { what, done, of } => untold.steps.push((done, of, what)),
         }
     })

@@ -1,4 +1,4 @@
-import type { Hints, ImplantOptions, Point } from './types.js';
+import type { Grey, Hints, ImplantOptions, Point, Size } from './types.js';
 
 /** What a caller gives, looked at before anything is done with it: a sentence that says what was wrong and what to give. */
 
@@ -22,12 +22,27 @@ export function checkOutline(outline: unknown): asserts outline is readonly Poin
   throw new Error('The outline should be an array of points [column, row], two numbers each, in pixels of the frame; whole numbers are corners of pixels');
 }
 
-export function checkHints(hints: unknown, from: string): void {
+export function checkHints(hints: unknown, frame: Size, from: string): void {
   const given = known(hints, HINTS, from);
-  const { femur, tibia, neighbours = [] } = given;
+  const { femur, tibia, neighbours = [], image } = given;
+  if (image !== undefined && image !== null) checkImage(image, frame, from);
   for (const [name, pose] of Object.entries({ femur, tibia })) if (pose !== undefined) checkPose(pose, `${from}: ${name}`);
   if (!Array.isArray(neighbours)) throw new Error(`${from}: neighbours should be an array of poses`);
   for (const pose of neighbours) checkPose(pose, `${from}: neighbours`);
+}
+
+/** Every number of other types would be taken for a grey value, cut to 16 bits. */
+export function checkImage(image: unknown, { width, height }: Size, from: string): asserts image is Grey {
+  if (!isGrey(image)) {
+    throw new Error(`${from}: image is of type ${typeName(image)}; it should be the grey values of the frame, row by row, in a Uint8Array (8 bits) or a Uint16Array (up to 16 bits)`);
+  }
+  if (image.length !== width * height) {
+    throw new Error(`${from}: image has ${image.length} values, and a frame of ${width} x ${height} pixels has ${width * height}: one grey value a pixel, no colours`);
+  }
+  const [first] = image;
+  if (image.every((value) => value === first)) {
+    throw new Error(`${from}: image has the grey value ${first} everywhere: nothing is to be seen in it; give the frame that was traced, or leave image out`);
+  }
 }
 
 export function checkPose(pose: unknown, from: string): void {
@@ -41,6 +56,19 @@ function known(given: unknown, names: readonly string[], from: string): Readonly
   const other = Object.keys(given).find((name) => !names.includes(name));
   if (other !== undefined) throw new Error(`${from} has no option ${other}; it has ${names.join(', ')}`);
   return given;
+}
+
+/** By its name, so that an array of another window or context is one too. */
+function isGrey(image: unknown): image is Grey {
+  return ['Uint8Array', 'Uint16Array'].includes(typeName(image));
+}
+
+export function isEightBit(image: Grey): image is Uint8Array {
+  return typeName(image) === 'Uint8Array';
+}
+
+function typeName(value: unknown): string {
+  return Object.prototype.toString.call(value).slice('[object '.length, -1);
 }
 
 function isObject(given: unknown): given is Readonly<Record<string, unknown>> {

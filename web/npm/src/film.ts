@@ -1,3 +1,4 @@
+import { isEightBit } from './asked.js';
 import { FilmStudy, FrameImage } from './pkg/core/fluoropose_wasm.js';
 import type { Film, FilmConstants, Grey, Pose, Size, StatedFilm } from './types.js';
 
@@ -50,7 +51,7 @@ export function filmNumbers(film: Film | FilmConstants | undefined, implant: obj
 
 /** Calls `work` with a frame in WebAssembly's memory. */
 export function withImage<T>(pixels: Grey, { width, height }: Size, work: (image: FrameImage) => T): T {
-  const image = pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+  const image = isEightBit(pixels) ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
   try {
     return work(image);
   } finally {

@@ -1,8 +1,8 @@
-import { checkHints, checkOptions, checkOutline, checkPose } from './asked.js';
+import { checkHints, checkImage, checkOptions, checkOutline, checkPose } from './asked.js';
 import { decodeModel } from './decode.js';
 import { filmNumbers, withImage } from './film.js';
 import { buildLibrary } from './library.js';
-import init, { HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
+import init, { cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
 import type { Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
 
@@ -21,24 +21,33 @@ export async function openImplant(options: ImplantOptions): Promise<Implant> {
   await (ready ??= init({ module_or_path: read(address) }));
   const { model, calibration, frame, signal } = options;
   signal?.throwIfAborted();
-  const mesh = isMesh(model) ? model : await decodeModel(new Uint8Array(model));
+  const { mesh, notes } = isMesh(model) ? { mesh: model, notes: [] } : await decodeModel(new Uint8Array(model));
   const library = options.library ?? (await buildLibrary(mesh, options));
-  return new Implant(mesh, library, calibration, frame);
+  return new Implant(mesh, library, calibration, frame, notes);
 }
 
 /** One component with its library. Its memory is WebAssembly's: call `close` when it is no longer wanted. */
 export class Implant {
   /** The library's bytes, to be kept for the next time. */
   readonly library: Uint8Array;
-  readonly #matcher: Matcher;
+  /**
+   * What a person should know of model and calibration, a sentence each: holes, a size that is no knee component's in millimetres, a
+   * camera of unusual numbers. Empty where nothing is unusual; poses are found all the same.
+   */
+  readonly remarks: readonly string[];
+  readonly #opened: Matcher;
   readonly #calibration: string;
   readonly #frame: Size;
+  #closed = false;
 
   /** Use `openImplant`. */
-  constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size) {
+  constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size, notes: readonly string[] = []) {
+    const camera = cameraDoubts(calibration, frame.width, frame.height);
     this.library = library;
-    this.#matcher = new Matcher(library);
-    this.#matcher.takeModel(mesh.vertices, mesh.triangles);
+    this.#opened = new Matcher(library);
+    this.#opened.takeModel(mesh.vertices, mesh.triangles);
+    const model = [...notes, ...this.#opened.remarks];
+    this.remarks = [...model.map((remark) => `model: ${remark}`), ...camera.map((doubt) => `camera: ${doubt}`)];
     this.#calibration = calibration;
     this.#frame = frame;
   }
@@ -50,7 +59,7 @@ export class Implant {
    */
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     checkOutline(outline);
-    checkHints(hints, 'pose');
+    checkHints(hints, this.#frame, 'pose');
     const around = surroundings(hints);
     try {
       const { image, film, bright } = hints;
@@ -67,13 +76,14 @@ export class Implant {
   /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
   preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
     checkOutline(outline);
-    checkHints(hints, 'preview');
+    checkHints(hints, this.#frame, 'preview');
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
   }
 
   /** Profiles of a frame across the model's outline at a pose: what `estimateFilm` reads. */
   profiles(image: Grey, pose: Pose): Float32Array {
     checkPose(pose, 'profiles: pose');
+    checkImage(image, this.#frame, 'profiles');
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
     try {
@@ -83,8 +93,15 @@ export class Implant {
     }
   }
 
+  /** Lets go of WebAssembly's memory; `library` stays. To close it twice does nothing more. */
   close(): void {
-    this.#matcher.free();
+    if (!this.#closed) this.#opened.free();
+    this.#closed = true;
+  }
+
+  get #matcher(): Matcher {
+    if (this.#closed) throw new Error('This implant was closed and finds no poses any more: open it again, openImplant with its library is quick');
+    return this.#opened;
   }
 
   #look(outline: readonly Point[], { unknownSides = [], laidBy = 'hand' }: Hints, find: (traced: Traced) => Match): FoundPose {

@@ -15,7 +15,7 @@ mod refiner;
 mod tools;
 mod views;
 
-pub use axes::axes_of;
+pub use axes::{axes_of, say_axes};
 pub use beside::{Beside, covered, hidden};
 pub use build::{Built, build_library, build_views};
 pub use clicker::{Clicked, Clicker, Neighbour};

@@ -248,6 +248,54 @@ fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
 }
 
 #[test]
+fn report_says_as_kinematics_does_that_axes_are_those_of_the_shape() {
+    let folder = Folder::new("axes");
+    knee(&folder, 1);
+    let component = |name: &str, poses: &str| {
+        format!("[[component]]\nname = '{name}'\nmodel = '{name}.stl'\nreference = '{poses}.jts'\n")
+    };
+    let (femur, tibia) = (component("femur", "above"), component("tibia", "below"));
+    folder.write("calibration.txt", "JT_INTCALIB\n1200\n0\n0\n0.4\n");
+    folder.write(
+        "study.toml",
+        &format!("name = 'x'\nside = 'left'\ncalibration = 'calibration.txt'\n{femur}{tibia}"),
+    );
+    let both = || {
+        let (_, kinematics) = folder.run(&joint("above.jts", "below.jts", "joint.csv"));
+        let (_, report) = folder.run(&["report", "--study", "study.toml", "--out", "out"]);
+        [kinematics, report]
+    };
+    let told = "the femoral file's axes are more than 10 degrees off those of its shape";
+    for said in both() {
+        assert!(
+            said.contains("femoral anterior, superior, right: x y z"),
+            "{said}"
+        );
+        assert!(!said.contains(told), "{said}");
+    }
+    turn(&folder.0.join("femur.stl"));
+    for said in both() {
+        assert!(said.contains(told), "{said}");
+    }
+}
+
+/// Turns a binary STL file by 120 degrees about the axis between its three, and by some more out of them.
+fn turn(path: &Path) {
+    let mut bytes = fs::read(path).expect("a file");
+    let (sine, cosine) = 0.5_f32.sin_cos();
+    for triangle in bytes[84..].chunks_exact_mut(50) {
+        for point in triangle[..48].chunks_exact_mut(12) {
+            let at = |k: usize| f32::from_le_bytes([0, 1, 2, 3].map(|byte| point[4 * k + byte]));
+            let (x, y, z) = (at(1), at(2), at(0));
+            let turned = [cosine * x - sine * y, sine * x + cosine * y, z];
+            let turned: Vec<u8> = turned.into_iter().flat_map(f32::to_le_bytes).collect();
+            point.copy_from_slice(&turned);
+        }
+    }
+    fs::write(path, bytes).expect("a file");
+}
+
+#[test]
 fn translations_of_far_origins_are_marked_and_are_no_doubt() {
     let folder = Folder::new("origins");
     knee(&folder, 2);
@@ -291,6 +339,8 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     folder.write("study.toml", study);
     let (code, said) = folder.run(&["track", "--study", "study.toml", "--out", "tracked"]);
     assert_eq!(code, 7, "{said}");
+    let taken = "192 x 192 pixels are taken for the whole frame, 384 x 384 mm of the detector";
+    assert!(said.contains(taken), "{said}");
     let table = folder.read("tracked/track.csv");
     let last = table.lines().last().expect("a row");
     assert!(last.ends_with(",\"1.png\",1"), "{table}");
@@ -303,6 +353,13 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     let told = "femur:1:5,5: the click leads to no pose; what tracked holds stays as it was";
     assert!(code == 1 && said.contains(told), "{code}: {said}");
     assert_eq!(folder.read("tracked/track.csv"), kept);
+    folder.write("inches.toml", &format!("{study}unit = 'in'\n"));
+    let (code, said) = folder.run(&["track", "--study", "inches.toml", "--out", "inches"]);
+    let named = "femur.stl, read with unit = \"in\" (under its [[component]] in the study): the distance of";
+    assert!(
+        code == 1 && said.contains("the component femur, ") && said.contains(named),
+        "{code}: {said}"
+    );
     let beyond = format!("femur:1:{side},20");
     let track = [
         "track",

@@ -37,6 +37,16 @@ impl Unit {
         }
     }
 
+    /// As a study names it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+            Self::In => "in",
+        }
+    }
+
     /// A length of the file in millimetres; one in millimetres stays as it is, to the last bit.
     pub fn in_mm(self, length: f32) -> f32 {
         let mm = match self {

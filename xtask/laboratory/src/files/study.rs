@@ -147,6 +147,14 @@ impl Component {
         self.role.or_else(|| Role::of_name(&self.name))
     }
 
+    /// Its name, its model's file and that file's unit: for what goes wrong with its lengths.
+    pub fn words(&self) -> String {
+        let (name, file, unit) = (&self.name, self.model.display(), self.unit.word());
+        format!(
+            "the component {name}, {file}, read with unit = \"{unit}\" (under its [[component]] in the study)"
+        )
+    }
+
     /// Its model in millimetres. What there is to say of the file is said on standard error.
     ///
     /// # Errors

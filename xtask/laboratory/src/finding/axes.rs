@@ -23,3 +23,18 @@ pub fn axes_of(
     let planes = symmetry_planes(model.mesh());
     Ok(anatomical_axes(model.mesh(), &planes, role.component()))
 }
+
+/// Says which axes of a component's file are taken.
+pub fn say_axes(name: &str, axes: &AnatomicalAxes) {
+    println!("{name} anterior, superior, right: {axes}");
+    if !axes.are_files_own {
+        eprintln!(
+            "the {name} file's axes are more than 10 degrees off those of its shape, or across the knee more than 5, so that those of its shape are taken"
+        );
+    }
+    if !axes.front_is_known {
+        eprintln!(
+            "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
+        );
+    }
+}

@@ -16,7 +16,7 @@ use fluoropose_report::{ORIGINS, besides, impossibilities, origins_told};
 
 use crate::exit;
 use crate::files::{Role, read_model_of, read_poses, write_text};
-use crate::finding::axes_of;
+use crate::finding::{axes_of, say_axes};
 use crate::options::sides;
 use fluoropose_phantom::implant::Side;
 
@@ -94,7 +94,7 @@ pub fn run(args: Args) -> Result<u8> {
     // Written before anything is said, so that it is there where nobody reads on.
     for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
         if let Some(axes) = &part.axes {
-            say(name, axes);
+            say_axes(name, axes);
         }
     }
     println!("translations: {ORIGINS}");
@@ -199,21 +199,6 @@ impl Part {
         axes.map_or(Pose::IDENTITY, |axes| {
             joint_axes(&axes.model_from_field, side)
         })
-    }
-}
-
-/// Says which axes of a component's file are taken.
-fn say(name: &str, axes: &AnatomicalAxes) {
-    println!("{name} anterior, superior, right: {axes}");
-    if !axes.are_files_own {
-        eprintln!(
-            "the {name} file's axes are more than 10 degrees off those of its shape, or across the knee more than 5, so that those of its shape are taken"
-        );
-    }
-    if !axes.front_is_known {
-        eprintln!(
-            "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
-        );
     }
 }
 

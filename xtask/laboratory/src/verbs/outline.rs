@@ -146,7 +146,8 @@ pub fn run(args: Args) -> Result<()> {
     let model = component.read_model()?;
     let mesh = model.as_model();
     let distance = views.distance_for(&calibration);
-    let library = build_library(mesh, source.camera, &views, distance)?;
+    let library =
+        build_library(mesh, source.camera, &views, distance).with_context(|| component.words())?;
     let mut trial = Trial {
         known: match args.femur_known {
             true => Known::femurs(&study, component)?,

@@ -10,11 +10,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use fluoropose::Side;
+use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, ORIGINS, figure, html, write};
 
 use crate::exit;
 use crate::files::{Study, stated_frames_per_s, write_figure, write_text};
+use crate::finding::say_axes;
 use crate::options::study_files;
 use knee::{Filtering, Knee};
 use out::{make_folder, write_cycles};
@@ -67,7 +69,10 @@ pub fn run(args: Args) -> Result<u8> {
     let Some(study) = &args.study else {
         return group::run(&args.group, &args.out).map(|()| 0);
     };
-    let film = report(study, &args)?;
+    let Reported { film, axes } = report(study, &args)?;
+    for (name, axes) in ["femoral", "tibial"].into_iter().zip(&axes) {
+        say_axes(name, axes);
+    }
     print(&args.out, &film);
     if film.posed() == 0 {
         eprintln!(
@@ -81,11 +86,18 @@ pub fn run(args: Args) -> Result<u8> {
     })
 }
 
+/// What the files of a study are made from.
+pub struct Reported {
+    film: JointFilm,
+    /// The femoral and the tibial ones, in which its numbers are.
+    axes: [AnatomicalAxes; 2],
+}
+
 /// Writes the files of a study; what they are made from comes back.
 ///
 /// # Errors
 /// As of [`run`].
-pub fn report(file: &Path, args: &Args) -> Result<JointFilm> {
+pub fn report(file: &Path, args: &Args) -> Result<Reported> {
     let study = Study::read(file)?;
     let sources = Sources::read(file, &study, args.poses.as_deref())?;
     let filtering = Filtering::new(frames_per_s(args.fps, &study)?, args.cutoff)?;
@@ -97,7 +109,8 @@ pub fn report(file: &Path, args: &Args) -> Result<JointFilm> {
     if args.overlay {
         overlay::write(&args.out, &study, &film, &sources)?;
     }
-    Ok(film)
+    let axes = [knee.femur_axes, knee.tibia_axes];
+    Ok(Reported { film, axes })
 }
 
 /// What is told of a study's joint that no knee has, by the poses in a folder; nothing where the study does not have one joint.

@@ -96,7 +96,7 @@ pub fn run(args: Args) -> Result<u8> {
         interpolate: args.interpolate,
         anew: args.anew,
         listener: Arc::new(move |told| match told {
-            Told::Step { what, .. } => eprintln!("{what}"),
+            Told::Step { what, .. } | Told::Taken(what) => eprintln!("{what}"),
             Told::Remark(what) => {
                 eprintln!("{what}");
                 let mut heard = heard.lock().unwrap_or_else(PoisonError::into_inner);

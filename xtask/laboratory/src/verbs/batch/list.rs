@@ -92,7 +92,9 @@ fn entry(heading: &[String], fields: &[String], folder: &Path) -> Result<Entry> 
         Some(fields.get(at)?.trim()).filter(|field| !field.is_empty())
     };
     let mut study = folder.join(field("study").context("no study is named")?);
-    if study.is_dir() {
+    // A folder that is not there is named like one that is.
+    let is_file = study.is_file() || study.extension().is_some_and(|kind| kind == "toml");
+    if !is_file {
         study.push("study.toml");
     }
     let of_folder = || study.parent().map(name_of).unwrap_or_default();
@@ -149,6 +151,8 @@ mod tests {
             (list[1].name.as_str(), list[1].group.as_str()),
             ("left", "cruciate retaining")
         );
+        let list = entries("study\n../s/nothere\n", Path::new("/data")).unwrap();
+        assert_eq!(list[0].name, "nothere");
         let text = "name,study,fixed,click\nx,s.toml,femur=f.jts;tibia=t.jts,\"femur:1:5,6\"\n";
         let list = entries(text, Path::new("/data")).unwrap();
         assert_eq!(list[0].fixed[1].file, Path::new("/data/t.jts"));

@@ -273,6 +273,7 @@ impl<'s> Part<'s> {
         distance: f64,
     ) -> Result<Built> {
         build_library(self.model.as_model(), sequence.camera(), views, distance)
+            .with_context(|| self.component.words())
     }
 
     fn finder<'l>(

@@ -24,7 +24,7 @@ use super::run::Run;
 use super::sides::Margins;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
+    Film, Study, camera_of_frames, read, read_calibration, size_taken, write_poses, write_text,
 };
 use crate::finding::Stated;
 
@@ -104,6 +104,9 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
     for doubt in doubts {
         (request.listener)(Told::Remark(doubt));
+    }
+    if let Some(taken) = size_taken(&calibration, film.size()) {
+        (request.listener)(Told::Taken(taken));
     }
     let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)

@@ -222,7 +222,8 @@ impl<'s> Part<'s> {
                 distance: self.component.distance_mm,
                 ..ViewOptions::default()
             };
-            let built = build_library(self.model(), self.camera, &views, distance)?;
+            let built = build_library(self.model(), self.camera, &views, distance)
+                .with_context(|| self.component.words())?;
             // Whoever was first.
             let _ = library.set(built);
         }

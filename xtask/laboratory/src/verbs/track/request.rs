@@ -16,6 +16,8 @@ use crate::progress::Stop;
 pub enum Told {
     /// What has to be known of what was given, a sentence.
     Remark(String),
+    /// What is taken for granted of every film alike, a sentence: for whoever reads along, and no warning.
+    Taken(String),
     /// What was just done or is begun.
     Step {
         /// In a few words; frames are counted from 1.
