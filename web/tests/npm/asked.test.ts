@@ -2,14 +2,15 @@ import { describe, expect, it } from 'vitest';
 import { checkHints, checkOptions, checkOutline } from '../../npm/src/asked';
 
 const OPTIONS = { model: new Uint8Array(), calibration: '', frame: { width: 1024, height: 1024 } };
+const { frame: FRAME } = OPTIONS;
 const POSE = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
 
 describe('what the npm module is asked', () => {
   it('is taken where it is right', () => {
     checkOptions({ ...OPTIONS, views: { nominal: [0, 0] }, library: undefined, onProgress: () => undefined });
     checkOutline([[1, 2], [3, 4.5]]);
-    checkHints({}, 'pose');
-    checkHints({ femur: POSE, neighbours: [POSE], unknownSides: [1], laidBy: 'tool', film: undefined }, 'pose');
+    checkHints({}, FRAME, 'pose');
+    checkHints({ femur: POSE, neighbours: [POSE], unknownSides: [1], laidBy: 'tool', film: undefined }, FRAME, 'pose');
   });
 
   it.each([
@@ -26,8 +27,16 @@ describe('what the npm module is asked', () => {
 
   it('has an outline of points and hints that there are', () => {
     for (const outline of ['x', [1, 2, 3, 4], [['1', '2']], [[1, 2, 3]], null]) expect(() => checkOutline(outline)).toThrow(/array of points \[column, row\]/);
-    expect(() => checkHints({ other: POSE }, 'pose')).toThrow(/pose has no option other; it has unknownSides/);
-    expect(() => checkHints({ femur: { pose: POSE } }, 'pose')).toThrow(/femur should be a pose/);
-    expect(() => checkHints({ neighbours: POSE }, 'pose')).toThrow(/neighbours should be an array of poses/);
+    expect(() => checkHints({ other: POSE }, FRAME, 'pose')).toThrow(/pose has no option other; it has unknownSides/);
+    expect(() => checkHints({ femur: { pose: POSE } }, FRAME, 'pose')).toThrow(/femur should be a pose/);
+    expect(() => checkHints({ neighbours: POSE }, FRAME, 'pose')).toThrow(/neighbours should be an array of poses/);
+  });
+
+  it.each([
+    [new Float32Array(4), /image is of type Float32Array; it should be .* Uint8Array .* Uint16Array/],
+    [Uint8Array.of(1, 2, 3), /image has 3 values, and a frame of 2 x 2 pixels has 4/],
+    [new Uint16Array(4).fill(7), /image has the grey value 7 everywhere/],
+  ])('has an image of grey values (%#)', (image, sentence) => {
+    expect(() => checkHints({ image }, { width: 2, height: 2 }, 'pose')).toThrow(sentence);
   });
 });
