@@ -138,7 +138,7 @@ async function searchedInWorkers(frames) {
   const opened = await Promise.all(PARTS.map(async ([name]) => {
     const { buffer: model } = await demoFile(`${name}.stl`);
     const implant = await openImplant({ model, calibration: CALIBRATION, frame: { width: SIDE, height: SIDE } });
-    const { vertices, triangles } = await decodeModel(new Uint8Array(model));
+    const { mesh: { vertices, triangles } } = await decodeModel(new Uint8Array(model));
     return { library: implant.library, vertices, triangles, axes: core.shapeAxes(vertices, triangles, name === 'femur') };
   }));
   const plan = new core.SearchPlan(FRAMES, false);
