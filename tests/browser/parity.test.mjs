@@ -113,6 +113,6 @@ function isRefused(implant, { outline, because }) {
 
 /** @param {(path: string) => Promise<any>} from @param {Buffer} model */
 async function meshOf(from, model) {
-  const { vertices, triangles } = await (await from('decode.js')).decodeModel(new Uint8Array(model));
+  const { mesh: { vertices, triangles } } = await (await from('decode.js')).decodeModel(new Uint8Array(model));
   return [vertices, triangles];
 }

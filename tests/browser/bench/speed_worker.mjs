@@ -18,7 +18,7 @@ onmessage = ({ data }) => {
 async function work({ masks, polygons }) {
   await init({ module_or_path: '/npm/pkg/core/fluoropose_wasm_bg.wasm' });
   const [model, calibration] = await Promise.all([fetched('femur.stl', 'arrayBuffer'), fetched('calibration.txt', 'text')]);
-  const mesh = await decodeModel(new Uint8Array(model));
+  const { mesh } = await decodeModel(new Uint8Array(model));
   const options = { model: mesh, calibration, frame: FRAME };
   const from = performance.now();
   const bytes = await buildLibrary(mesh, options);
