@@ -7,7 +7,6 @@ mod decimal;
 mod definite;
 pub(crate) mod eigen;
 mod floor;
-mod root;
 
 pub use angle::sin_cos;
 pub use arc::atan2;
@@ -16,4 +15,3 @@ pub use decimal::Decimal;
 pub(crate) use definite::solve_few;
 pub use definite::{inverse_spd, solve_spd};
 pub use floor::floor;
-pub use root::sqrt;

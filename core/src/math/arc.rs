@@ -8,7 +8,6 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::angle::{high, polynomial};
-use super::root::sqrt;
 
 /// What is left of pi / 2 behind its 53 bits.
 const FRAC_PI_2_REST: f64 = 6.123_233_995_736_766e-17;
@@ -89,7 +88,7 @@ pub(super) fn arc_sine(x: f64) -> f64 {
         return x + x * ratio(x * x);
     }
     let z = (1.0 - x.abs()) * 0.5;
-    let (root, ratio) = (sqrt(z), ratio(z));
+    let (root, ratio) = (libm::sqrt(z), ratio(z));
     let arc = if high(x) >= 0x3fef_3333 {
         FRAC_PI_2 - (2.0 * (root + root * ratio) - FRAC_PI_2_REST)
     } else {

@@ -8,7 +8,6 @@
 use super::angle::sin_cos;
 use super::arc::{arc_sine, atan2};
 use super::floor::floor;
-use super::root::sqrt;
 
 /// A 3 x 3 matrix, row by row.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -17,6 +16,13 @@ pub type Vector3 = [f64; 3];
 
 /// The identity.
 pub(crate) const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Square root.
+#[must_use]
+#[cfg_attr(target_os = "none", inline(never))]
+pub fn sqrt(x: f64) -> f64 {
+    libm::sqrt(x)
+}
 
 /// Whether the processor divides numbers of 32 bits itself, and has a square root for no safe program.
 const DIVIDES: bool = cfg!(all(target_arch = "arm", target_abi = "eabihf"));

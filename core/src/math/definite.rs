@@ -1,7 +1,7 @@
 //! Symmetric positive definite systems by Cholesky's method: Golub and Van Loan, *Matrix Computations*, section 4.2. One function for
 //! matrices of all sizes, because a microcontroller would have it for each.
 
-use super::root::sqrt;
+use super::basic::sqrt;
 
 /// A square matrix, row by row.
 struct Square<'a> {
