@@ -1,17 +1,13 @@
 //! Elementary functions and small algebra, the same to the last bit on every target.
 
 mod angle;
-mod arc;
 mod basic;
 mod decimal;
 mod definite;
 pub(crate) mod eigen;
-mod floor;
 
 pub use angle::sin_cos;
-pub use arc::atan2;
 pub use basic::*;
 pub use decimal::Decimal;
 pub(crate) use definite::solve_few;
 pub use definite::{inverse_spd, solve_spd};
-pub use floor::floor;

@@ -7,8 +7,6 @@
 
 use core::f64::consts::{FRAC_2_PI, TAU};
 
-use super::floor::floor;
-
 /// Pi / 2 in parts of 33 bits, each with all that is left after it.
 const QUARTER: [[f64; 2]; 3] = [
     [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11],
@@ -18,31 +16,25 @@ const QUARTER: [[f64; 2]; 3] = [
 /// Sums with this are whole numbers.
 const TO_WHOLE: f64 = 1.5 / f64::EPSILON;
 
-/// The lowest and the highest two by themselves: sums are made in an order of their own.
-const SINE: (f64, [f64; 3], [f64; 2]) = (
+const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
-    [
-        8.333_333_333_322_49e-3,
-        -1.984_126_982_985_795e-4,
-        2.755_731_370_707_006_8e-6,
-    ],
-    [-2.505_076_025_340_686_3e-8, 1.589_690_995_211_55e-10],
-);
-const COSINE: [[f64; 3]; 2] = [
-    [
-        4.166_666_666_666_66e-2,
-        -1.388_888_888_887_411e-3,
-        2.480_158_728_947_673e-5,
-    ],
-    [
-        -2.755_731_435_139_066_3e-7,
-        2.087_572_321_298_175e-9,
-        -1.135_964_755_778_819_5e-11,
-    ],
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
 ];
 
 /// The upper half of a number's bits without its sign.
-pub(super) const fn high(x: f64) -> u32 {
+const fn high(x: f64) -> u32 {
     (x.to_bits() >> 32) as u32 & 0x7fff_ffff
 }
 
@@ -63,23 +55,22 @@ const FAR: u32 = 0x4139_21fb;
 pub fn sin_cos(radians: f64) -> (f64, f64) {
     let near = match high(radians) < FAR {
         true => radians,
-        false => radians - TAU * floor(radians / TAU + 0.5),
+        false => radians - TAU * libm::floor(radians / TAU + 0.5),
     };
-    let (quarters, rest, tail) = match high(near) {
-        ..0x3e46_a09e => return (near, 1.0),
-        0x3e46_a09e..=0x3fe9_21fb => (0, near, None),
+    match high(near) {
+        ..0x3e46_a09e => (near, 1.0),
+        0x3e46_a09e..=0x3fe9_21fb => (sine(near, 0.0, false), cosine(near, 0.0)),
         0x3fe9_21fc..FAR => {
             let (quarters, rest, tail) = reduced(near);
-            (quarters, rest, Some(tail))
+            let (sin, cos) = (sine(rest, tail, true), cosine(rest, tail));
+            match quarters & 3 {
+                0 => (sin, cos),
+                1 => (cos, -sin),
+                2 => (-sin, -cos),
+                _ => (-cos, sin),
+            }
         }
-        FAR.. => return (f64::NAN, f64::NAN),
-    };
-    let (sin, cos) = (sine(rest, tail), cosine(rest, tail.unwrap_or(0.0)));
-    match quarters & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
+        FAR.. => (f64::NAN, f64::NAN),
     }
 }
 
@@ -117,35 +108,25 @@ fn further(before: f64, count: f64, [part, rest]: [f64; 2]) -> (f64, f64) {
     (left, count * rest - ((before - left) - taken))
 }
 
-/// The sum of powers, the lowest first, by Horner's rule: a loop takes less room than its steps.
-#[cfg_attr(target_os = "none", inline(never))]
-pub(super) fn polynomial(x: f64, factors: &[f64]) -> f64 {
-    let rising = factors.iter().copied();
-    rising
-        .rev()
-        .reduce(|sum, factor| factor + x * sum)
-        .unwrap_or(0.0)
-}
-
 /// The sine of `x + tail`, at most a quarter of pi.
-fn sine(x: f64, tail: Option<f64>) -> f64 {
-    let (lowest, low, high) = &SINE;
+fn sine(x: f64, tail: f64, has_tail: bool) -> f64 {
+    let [s1, s2, s3, s4, s5, s6] = SINE;
     let z = x * x;
     let w = z * z;
-    let r = polynomial(z, low) + z * w * polynomial(z, high);
+    let r = s2 + z * (s3 + z * s4) + z * w * (s5 + z * s6);
     let v = z * x;
-    match tail {
-        None => x + v * (lowest + z * r),
-        Some(tail) => x - ((z * (0.5 * tail - v * r) - tail) - v * lowest),
+    match has_tail {
+        false => x + v * (s1 + z * r),
+        true => x - ((z * (0.5 * tail - v * r) - tail) - v * s1),
     }
 }
 
 /// The cosine of `x + tail`, at most a quarter of pi.
 fn cosine(x: f64, tail: f64) -> f64 {
-    let [low, high] = &COSINE;
+    let [c1, c2, c3, c4, c5, c6] = COSINE;
     let z = x * x;
     let w = z * z;
-    let r = z * polynomial(z, low) + w * w * polynomial(z, high);
+    let r = z * (c1 + z * (c2 + z * c3)) + w * w * (c4 + z * (c5 + z * c6));
     let half = 0.5 * z;
     let w = 1.0 - half;
     w + (((1.0 - w) - half) + (z * r - x * tail))

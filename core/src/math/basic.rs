@@ -6,8 +6,6 @@
 //! that is reported.
 
 use super::angle::sin_cos;
-use super::arc::{arc_sine, atan2};
-use super::floor::floor;
 
 /// A 3 x 3 matrix, row by row.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -58,10 +56,22 @@ pub(crate) fn ln_1p_single(x: f32) -> f32 {
     libm::log1pf(x)
 }
 
+/// Angle of the vector `(x, y)` in radians, -pi to pi.
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
 /// Arc sine in radians; the argument is clamped to -1..1, so rounding cannot make a NaN.
 #[must_use]
 pub(crate) fn asin(x: f64) -> f64 {
-    arc_sine(within(x, -1.0, 1.0))
+    libm::asin(within(x, -1.0, 1.0))
+}
+
+/// Largest whole number not above `x`.
+#[must_use]
+pub fn floor(x: f64) -> f64 {
+    libm::floor(x)
 }
 
 /// Exponential function.
