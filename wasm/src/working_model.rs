@@ -3,19 +3,17 @@
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmProfile;
 use fluoropose::finder::{
-    Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
-    correct_candidates, find, first_poses, judge_fit, look_around,
+    Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, correct_candidates,
+    find, first_poses, look_around,
 };
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::locate::Located;
-use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
+use fluoropose::locate::rerank::unmatched_at_pose;
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::{SymmetryPlane, is_nearly_symmetric, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
-use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{
     CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
@@ -25,93 +23,15 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::JsError;
 
+mod answers;
+
+pub(crate) use answers::{Assessed, Fit, Judged, Ranked};
+
 use crate::found::{Uncertainty, uncertainty};
 use fluoropose_page::error::sentence;
 
 /// Mirror images nearer to another pose than this are that one, degrees.
 const SAME_DEG: f64 = 1.0;
-
-/// A pose that explains an outline.
-#[derive(Clone, Copy)]
-pub(crate) struct Ranked {
-    /// What the library said.
-    pub(crate) located: Located,
-    /// The pose, as good as it is known.
-    pub(crate) pose: Pose,
-    /// Known frame pixels that differ from the outline when the model is drawn there; nothing where it was not, or cannot
-    /// be.
-    pub(crate) drawn: Option<u64>,
-    /// What refinement made of it.
-    pub(crate) fit: Option<Fit>,
-    /// How sure it is.
-    pub(crate) covariance: Option<PoseCovariance>,
-    /// How well it fits, where the finder compared it with others.
-    pub(crate) judged: Option<Judged>,
-}
-
-/// How well a pose fits by itself, whatever other poses do.
-#[derive(Clone, Copy)]
-pub(crate) struct Judged {
-    /// By what candidates are compared ([`Candidate::misfit`]).
-    pub(crate) misfit: f64,
-    pub(crate) verdict: Verdict,
-}
-
-impl Judged {
-    fn of(candidate: &Candidate) -> Self {
-        let determined = candidate.refined.is_none() || candidate.covariance.is_some();
-        Self {
-            misfit: candidate.misfit(),
-            verdict: judge_fit(&candidate.fit, determined, &Limits::USUAL),
-        }
-    }
-}
-
-/// What a target says of a refined pose.
-pub(crate) struct Assessed {
-    /// Nothing where the target does not determine the pose.
-    pub(crate) uncertainty: Option<Uncertainty>,
-    /// How well the model's outline is met there.
-    pub(crate) fit: OutlineFit,
-}
-
-impl Assessed {
-    /// How far the pose is to be trusted by itself.
-    pub(crate) fn verdict(&self) -> Verdict {
-        judge_fit(&self.fit, self.uncertainty.is_some(), &Limits::USUAL)
-    }
-}
-
-/// A refined pose.
-#[derive(Clone, Copy)]
-pub(crate) struct Fit {
-    pub(crate) refined: Refined,
-    /// The pose that it was refined from.
-    pub(crate) start: Pose,
-}
-
-impl Ranked {
-    /// A pose of the library, the model not drawn.
-    pub(crate) fn undrawn(located: Located) -> Self {
-        Self {
-            located,
-            pose: located.pose,
-            drawn: None,
-            fit: None,
-            covariance: None,
-            judged: None,
-        }
-    }
-}
-
-impl From<&Reranked> for Ranked {
-    fn from(&Reranked { located, unmatched }: &Reranked) -> Self {
-        Self {
-            drawn: Some(unmatched),
-            ..Self::undrawn(located)
-        }
-    }
-}
 
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
 pub(crate) struct WorkingModel {
