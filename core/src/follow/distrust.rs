@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::sides::Rival;
+use crate::finder::Doubt;
 use crate::joint::beside::Beside;
 use crate::joint::impossible::Impossible;
 use crate::mesh::anatomy::KneeComponent;
@@ -129,14 +130,8 @@ impl fmt::Display for Distrust {
                 f,
                 "it lies {mm:.0} mm behind the other component along the view, which no joint does"
             ),
-            Self::Behind(mm) => write!(
-                f,
-                "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
-            ),
-            Self::NoKnee(mm) => write!(
-                f,
-                "the model is {mm:.2} mm across, which no component of a knee is: is its file in another unit?"
-            ),
+            Self::Behind(mm) => Doubt::Behind { mm }.fmt(f),
+            Self::NoKnee(mm) => Doubt::NoKnee { mm }.fmt(f),
             Self::Knee(what) => what.fmt(f),
             Self::Mirrored(beside) => beside.fmt(f),
             Self::Shape(shape) => {
