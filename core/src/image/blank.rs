@@ -13,7 +13,8 @@ const PLACES: usize = 256;
 /// One of so many may have another grey value: letters are burnt into frames that show nothing else.
 const OTHERS: usize = 200;
 
-/// Whether a frame shows nothing: of places all over it, nearly all have their mean grey value, to `within`.
+/// Whether a frame shows nothing: of places all over it, nearly all have their mean grey value, to `within` grey values. Pixels that nothing is
+/// known of do not count.
 #[must_use]
 pub fn is_blank(frame: &dyn Grey, within: f64) -> bool {
     let size: [usize; 2] = frame.size().into();
