@@ -29,6 +29,7 @@ pageTest('poses by hand', async (page, t) => {
   await choose(page, await demoFile('femur.jts'));
   await panel.waitForWords(page, /as poses of the femur/);
 
+  await step(page, t, 'where a loaded pose fits the frame and where a moved one does not is shown', () => edges(page, stage));
   await step(page, t, 'arrows alone, with Ctrl and with Shift change the six numbers', () => nudges(page, stage));
   await step(page, t, 'fine and coarse steps, and steps that are typed', () => steps(page));
   await step(page, t, 'a lock holds a number against keys and mouse', () => locks(page, stage));
@@ -57,6 +58,24 @@ async function takeInHand(page, stage) {
   await stage.canvas.focus();
   await page.keyboard.press('a');
   await page.getByRole('button', { name: 'Refine from here' }).waitFor();
+}
+
+/** @param {Page} page @param {Stage} stage */
+async function edges(page, stage) {
+  const fitting = await onEdges(page, (percent) => percent > 90);
+  await takeInHand(page, stage);
+  for (let key = 0; key < 3; key++) await page.keyboard.press('ArrowRight');
+  const moved = await onEdges(page, (percent) => percent < fitting - 20);
+  for (let key = 0; key < 3; key++) await page.keyboard.press('ArrowLeft');
+  await onEdges(page, (percent) => percent === fitting);
+  assert(moved > 0, 'edges along which it was moved are met');
+}
+
+/** The part of the outline on edges as the panel tells it, once it is as asked. @param {Page} page @param {(percent: number) => boolean} isRight */
+async function onEdges(page, isRight) {
+  const region = page.getByRole('region', { name: 'Edges along the outline' });
+  const read = async () => Number(/^(\d+) % of the outline/m.exec(await region.innerText())?.[1] ?? NaN);
+  return until(read, isRight, 'edges along the outline');
 }
 
 /** @param {Page} page @param {Stage} stage */

@@ -7,6 +7,7 @@ mod landscape;
 mod nearest;
 mod on_frame;
 mod one_click;
+mod readings;
 
 pub use answer::OneClickAnswer;
 pub use from_here::{HandFit, HandVerdict, HiddenPixels};

@@ -16,8 +16,8 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, is_nearly_symmetric, symmetry_pl
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{
-    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
-    film_profiles, fit_at, polarity_at, refine, refine_traced,
+    CameraView, Fit as OutlineFit, Iterate, OutlineReading, Polarity, RefineOptions, Refined,
+    Target, assess, film_profiles, fit_at, outline_readings, polarity_at, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
@@ -191,6 +191,21 @@ impl WorkingModel {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         fit_at(&model, &[view], pose, &mut memory).map_err(sentence)
+    }
+
+    /// The same, with what was seen beside each piece of the outline.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    pub(crate) fn outline_readings(
+        &mut self,
+        pose: &Pose,
+        view: CameraView<'_>,
+        visit: impl FnMut(&OutlineReading),
+    ) -> Result<OutlineFit, JsError> {
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        outline_readings(&model, view, pose, &mut memory, visit).map_err(sentence)
     }
 
     /// Brings one pose onto what was seen, without rivals or mirror images: somebody chose where to start.

@@ -19,6 +19,7 @@ import { Convergence } from './jobs/convergence';
 import { FilmLater } from './jobs/film_later';
 import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
+import { EdgeWatch } from './jobs/edge_watch';
 import { HandJudge } from './jobs/hand_judge';
 import { JointReader } from './jobs/joint_reader';
 import { JointWatch } from './jobs/joint_watch';
@@ -73,6 +74,7 @@ async function start(root: HTMLElement): Promise<void> {
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
+  const edges = new EdgeWatch(services, matcher);
   new JointWatch(services, matcher);
   keepLeads(services.store);
   const film = new FilmLater(services, matcher, filmWorker());
@@ -95,6 +97,7 @@ async function start(root: HTMLElement): Promise<void> {
     hand,
     seeing: new SeeingActions(services.store, hand),
     landscapes,
+    edges,
     joint: new JointReader(services, matcher),
     actions,
     calibrator,

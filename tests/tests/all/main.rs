@@ -21,6 +21,7 @@ mod offset;
 mod options;
 mod parity;
 mod partial;
+mod readings;
 mod sides;
 mod slices;
 mod symmetry;

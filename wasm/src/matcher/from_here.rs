@@ -258,7 +258,7 @@ fn judged(
 }
 
 /// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose`, and told too.
-fn on_frame<T>(
+pub(super) fn on_frame<T>(
     model: &mut WorkingModel,
     (frame, film): (&FrameImage, Option<FilmModel>),
     hidden: &HiddenPixels,

@@ -9,6 +9,7 @@ import type { Librarian } from '../jobs/librarian';
 import type { Poser } from '../jobs/poser';
 import type { Services } from '../jobs/services';
 import type { JointReader } from '../jobs/joint_reader';
+import type { EdgeWatch } from '../jobs/edge_watch';
 import type { Landscapes } from '../jobs/landscape';
 import type { Videos } from '../exchange/videos';
 import type { Actions } from './actions';
@@ -30,6 +31,7 @@ export interface App {
   readonly hand: HandActions;
   readonly seeing: SeeingActions;
   readonly landscapes: Landscapes;
+  readonly edges: EdgeWatch;
   readonly joint: JointReader;
 }
 

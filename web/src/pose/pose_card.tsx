@@ -41,6 +41,11 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
       {adjusting && <HandNumbers pose={pose} />}
       {/* Above the verdict, which comes and goes in lines: a button must not move from under the hand. */}
       {adjusting && <HandButtons cell={cell} adjusting />}
+      {/* How far to trust it before what it is. */}
+      <div class={pose && cell.result?.kind === 'posed' && cell.result.from !== 'file' ? 'pose-note posed' : 'pose-note'}>
+        <VerdictLine result={cell.result} isAccepted={isAccepted(cell, mark)} />
+        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+      </div>
       {pose && !adjusting && (
         <dl class="numbers">
           {QUANTITIES.map((quantity) => (
@@ -54,10 +59,6 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
           ))}
         </dl>
       )}
-      <div class={pose && cell.result?.kind === 'posed' && cell.result.from !== 'file' ? 'pose-note posed' : 'pose-note'}>
-        <VerdictLine result={cell.result} isAccepted={isAccepted(cell, mark)} />
-        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
-      </div>
       {refusal !== null && <p class="card-note refused">{refusal}</p>}
       {cell.result?.kind === 'failed' && <Remedies cell={cell} />}
       {!adjusting && <HandButtons cell={cell} adjusting={false} />}

@@ -28,13 +28,6 @@ export function Unmatched({ state }: { state: State }) {
     if (picture) services.studio.paintUnmatched(context, picture);
     else context.clearRect(0, 0, SIZE, SIZE);
   }, [picture, services]);
-  if (!matched) {
-    return (
-      <section class="card unmatched" aria-label={texts.panel.unmatched.region}>
-        <p class="card-note">{texts.panel.unmatched.none}</p>
-      </section>
-    );
-  }
   return (
     <section class="card unmatched" aria-label={texts.panel.unmatched.region}>
       <canvas

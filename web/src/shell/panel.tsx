@@ -47,10 +47,11 @@ export function Panel({ state }: { state: State }) {
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
       <FilmNote state={state} />
       <ComponentNotes state={state} />
-      {(posed || reference) && <CompareCard state={state} />}
+      {reference && <CompareCard state={state} />}
       {found && <Candidates cell={cell} result={found} />}
       {isPictured(state, cell) && <Pictures state={state} />}
       <Display state={state} />
+      {posed && !reference && <CompareCard state={state} />}
       <div class="panel-foot">
         {actions.hasPoses(component) && (
           <button type="button" class="button" title={texts.panel.savePosesTitle} aria-haspopup="dialog" onClick={() => openPoses(services.store, component)}>

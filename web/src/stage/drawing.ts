@@ -9,7 +9,7 @@ import type { OverlayLayer } from './layers';
 type Context = CanvasRenderingContext2D;
 
 /** Dark under every line: the frame behind may be as bright as the line. */
-const HALO = 'rgb(0 0 0 / 0.55)';
+export const HALO = 'rgb(0 0 0 / 0.55)';
 const TAU = 2 * Math.PI;
 
 export function drawSilhouette(context: Context, view: Viewport, { border, box, canvas, component }: OverlayLayer, opacity: number): void {

@@ -57,6 +57,7 @@ function attach(app: App, picture: HTMLCanvasElement, ink: HTMLCanvasElement, gl
   const { store, studio } = app.services;
   const view = new StageView(store, studio, picture, ink);
   view.calibrator = app.calibrator;
+  view.edges = app.edges;
   view.tracingTools = app.tracingTools;
   const controller = new Controller();
   app.actions.stage = {

@@ -4,6 +4,7 @@ import { cellOf, chosenCandidate, type Doc, type FrameEntry, type GreyWindow, ty
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { TracingTools } from '../tracing/tracing_tools';
 import { NO_PREVIEW, pointsOfPreview, type Preview } from '../tracing/preview';
+import type { EdgeWatch } from '../jobs/edge_watch';
 import type { Calibrator } from '../jobs/calibrator';
 import { cameraOf } from '../results/keys';
 import type { Box, Studio } from '../films/studio';
@@ -19,6 +20,7 @@ import { COMPONENT_COLOURS } from '../controls/colours';
 import { handSituationOf } from '../commands/model_in_hand';
 import { boxRound, Ink } from './ink';
 import { FrameLayer, OverlayLayer } from './layers';
+import { drawMisses } from './misses';
 import { pointerStore } from '../commands/pointer';
 import { Shading } from './shading';
 import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
@@ -54,6 +56,7 @@ export class StageView {
   /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
   tracingTools: Pick<TracingTools, 'tick' | 'preview' | 'scale'> | null = null;
   calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
+  edges: Pick<EdgeWatch, 'of'> | null = null;
 
   constructor(store: Store, studio: Studio, picture: HTMLCanvasElement, ink: HTMLCanvasElement) {
     this.#store = store;
@@ -236,6 +239,8 @@ export class StageView {
     if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
       if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, overlayOpacity);
+      const edges = this.edges?.of(chosenCandidate(cellOf(doc, frame.id, overlay.component)));
+      if (overlay.border && edges) drawMisses(context, view, edges);
       if (overlay.border && isSurpassed(cellOf(doc, frame.id, overlay.component))) {
         strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].css);
       }

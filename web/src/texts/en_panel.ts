@@ -83,7 +83,6 @@ export const panel = {
   unmatched: {
     region: 'Unmatched pixels in the canonical frame',
     picture: 'Outline and library view in canonical form, black where they differ',
-    none: 'Poses that are found from an outline have a match to show.',
     working: 'No picture of the match yet',
     differs: 'differs',
     partial: (milliseconds: string) => `from a part of the outline · ${milliseconds} ms`,

@@ -22,7 +22,7 @@ export const seeing = {
   remembered: 'This browser remembers these choices.',
   scale: (length: string, component: string) => `Scale bar: ${length} at the ${component}`,
   pictures: 'Picture',
-  picture: { unmatched: 'Unmatched', landscape: 'Landscape', space: '3-D' } satisfies Record<PictureName, string>,
+  picture: { unmatched: 'Fit', landscape: 'Landscape', space: '3-D' } satisfies Record<PictureName, string>,
   landscape: {
     region: 'Score landscape',
     grid: 'Scores of the library’s views',
@@ -36,6 +36,16 @@ export const seeing = {
     working: 'Scoring ...',
     none: 'A closed outline and its library have a landscape.',
     byHand: 'The pose was set by hand: go back to the page’s pose to take a view.',
+  },
+  edges: {
+    region: 'Edges along the outline',
+    picture: (times: number) => `The model’s outline, and the frame’s edges beside it, ${times} times as far off as they lie; red where there are none`,
+    met: ({ met, known, residual }: { met: number; known: number; residual: number }, times: number) =>
+      known === 0
+        ? 'Nothing is seen along the outline.'
+        : `${Math.round(100 * met)} % of the outline lies on edges, ${residual.toFixed(2)} px off. They are drawn ${times} times as far.`,
+    reading: 'Reading the frame’s edges ...',
+    none: 'A pose has its edges here.',
   },
   space: {
     region: 'Models in space',

@@ -1,6 +1,6 @@
-import type { HandFit, HandVerdict, Landscape, Matcher, Traced } from '../../pkg/core/fluoropose_wasm.js';
+import type { EdgeReadings, HandFit, HandVerdict, Landscape, Matcher, Traced } from '../../pkg/core/fluoropose_wasm.js';
 import type { Verdict } from '../../document/types';
-import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
+import type { EdgeFacts, FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import type { MatchInput } from '../protocol/match';
 import { filmArray, type MatcherOf, onFrame } from './on_frame';
@@ -21,6 +21,8 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
     judgeOutline: ({ pose, ...input }) => withTraced(input, (matcher, traced) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose))))),
     judgeOnFrame: ({ pose, ...input }) =>
       onFrame(matcherOf, input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film)))),
+    readOnFrame: ({ pose, ...input }) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) => edgesOf(matcher.readOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film)))),
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),
     viewPose: ({ view, ...input }) =>
       withTraced(input, (matcher, traced) => {
@@ -46,6 +48,13 @@ function verdictOf(raw: HandVerdict): Verdict {
   const { word, because } = raw;
   raw.free();
   return { word: word === 'good' ? 'good' : 'doubtful', because };
+}
+
+function edgesOf(readings: EdgeReadings): EdgeFacts {
+  const { met, known, residual } = readings;
+  const numbers = readings.numbers as Float32Array<ArrayBuffer>;
+  readings.free();
+  return { numbers, met, known, residual };
 }
 
 function landscapeOf(landscape: Landscape): LandscapeFacts {

@@ -38,6 +38,20 @@ export interface FitFacts {
   readonly verdict: Verdict;
 }
 
+/** Where the frame's edges lie along a model's outline, as `EdgeReadings` of the core has it. */
+export interface EdgeFacts {
+  /** `EDGE_NUMBERS` for each piece of the outline: column, row, the outward normal, how far beyond it the edge lies (px, NaN where there is none), met (1 or 0, NaN where nothing can be told). */
+  readonly numbers: Float32Array<ArrayBuffer>;
+  /** Part of the outline that is met, of what can be told. */
+  readonly met: number;
+  /** Part of the outline of which anything can be told. */
+  readonly known: number;
+  /** Of what is met, px. */
+  readonly residual: number;
+}
+
+export const EDGE_NUMBERS = 6;
+
 /** A grid of views: the rotation of the first, degrees, the step, and how many. */
 export interface GridAxis {
   readonly first: number;
@@ -70,6 +84,8 @@ export interface HandProtocol {
   /** How far a pose that somebody set is to be trusted, by the outline or by the frame. */
   judgeOutline: { input: MatchInput & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
   judgeOnFrame: { input: OnFrame & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
+  /** What was seen along the outline at a pose. */
+  readOnFrame: { input: OnFrame & { readonly pose: PoseNumbers }; output: EdgeFacts; progress: never };
   /** Throws for an outline of which only a part is known. */
   landscape: { input: MatchInput; output: LandscapeFacts; progress: never };
   viewPose: {
