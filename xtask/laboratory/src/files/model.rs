@@ -195,12 +195,18 @@ mod tests {
             );
             let expected = expected.expect("valid").as_model().bounds().radius;
             assert!((radius / expected - 1.0).abs() < 1e-6, "{unit:?}: {radius}");
-            let (_, remarks) = component("").read_model_and_remarks().expect("a model");
-            let word = format!("{unit:?}").to_lowercase();
-            let is_told = remarks
-                .iter()
-                .any(|one| one.contains(&format!("unit = \"{word}\"")));
-            assert_eq!(is_told, unit != Unit::Mm, "{unit:?}: {remarks:?}");
+            let guessed = component("").read_model_and_remarks();
+            let refusal = guessed.map_or_else(|error| error.to_string(), |_| String::new());
+            let is_told = refusal.contains(&format!("unit = \"{}\"", unit.word()));
+            assert_eq!(is_told, unit != Unit::Mm, "{unit:?}: {refusal:?}");
+            let (_, remarks) = component("unit = 'mm'")
+                .read_model_and_remarks()
+                .expect("as stated");
+            assert_eq!(
+                remarks.is_empty(),
+                unit == Unit::Mm,
+                "{unit:?}: {remarks:?}"
+            );
         }
         std::fs::remove_file(&path).expect("it was there");
     }

@@ -113,9 +113,8 @@ pub struct Component {
     pub name: String,
     /// The file of its model.
     pub model: PathBuf,
-    /// The unit of length of that file.
-    #[serde(default)]
-    pub unit: Unit,
+    /// The unit of length of that file, where it is stated: millimetres otherwise, which a size may speak against.
+    pub unit: Option<Unit>,
     /// Which component of the knee it is, where its name does not say so.
     pub role: Option<Role>,
     /// Reference poses (.jts), a row a frame.
@@ -147,9 +146,14 @@ impl Component {
         self.role.or_else(|| Role::of_name(&self.name))
     }
 
+    /// The unit of length of its model's file.
+    pub fn unit(&self) -> Unit {
+        self.unit.unwrap_or_default()
+    }
+
     /// Its name, its model's file and that file's unit: for what goes wrong with its lengths.
     pub fn words(&self) -> String {
-        let (name, file, unit) = (&self.name, self.model.display(), self.unit.word());
+        let (name, file, unit) = (&self.name, self.model.display(), self.unit().word());
         format!(
             "the component {name}, {file}, read with unit = \"{unit}\" (under its [[component]] in the study)"
         )
@@ -158,7 +162,7 @@ impl Component {
     /// Its model in millimetres. What there is to say of the file is said on standard error.
     ///
     /// # Errors
-    /// Names the file and what is wrong with it.
+    /// Names the file and what is wrong with it; a size that speaks for another unit is, where none is stated: no pose would be good.
     pub fn read_model(&self) -> Result<OwnedModel> {
         let (owned, remarks) = self.read_model_and_remarks()?;
         for remark in remarks {
@@ -172,17 +176,21 @@ impl Component {
     /// # Errors
     /// Those of [`Self::read_model`].
     pub fn read_model_and_remarks(&self) -> Result<(OwnedModel, Vec<String>)> {
-        let (owned, mut remarks) = read_model_in(&self.model, self.unit, self.role())?;
-        let suspected = suspected_unit(&owned.as_model().bounds());
-        remarks.extend(suspected.map(|unit| {
-            let words = Unit::of(unit).into_iter();
-            let words: Vec<_> = words.map(|unit| format!("unit = \"{unit}\"")).collect();
-            format!(
-                "a file that stays as it is can be taken with {} under its [[component]] in the study",
-                words.join(" or ")
-            )
-        }));
-        Ok((owned, remarks))
+        let (owned, remarks) = read_model_in(&self.model, self.unit(), self.role())?;
+        let bounds = owned.as_model().bounds();
+        match suspected_unit(&bounds) {
+            Some(suspected) if self.unit.is_none() => {
+                let words = Unit::of(suspected).into_iter();
+                let words: Vec<_> = words.map(|unit| format!("unit = \"{unit}\"")).collect();
+                bail!(
+                    "{}: the model would be {:.3} mm across, which is no knee component's size: state {} under its [[component]] in the study, or unit = \"mm\" where it is so small",
+                    self.model.display(),
+                    2.0 * bounds.radius,
+                    words.join(" or ")
+                )
+            }
+            _ => Ok((owned, remarks)),
+        }
     }
 }
 

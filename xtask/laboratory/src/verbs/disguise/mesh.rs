@@ -65,7 +65,7 @@ pub(super) fn write(
         vertices: model
             .vertices
             .into_iter()
-            .map(|one| axes.vertex(one.map(|x| from.unit.in_mm(x))))
+            .map(|one| axes.vertex(one.map(|x| from.unit().in_mm(x))))
             .collect(),
         triangles: model.triangles,
     };
