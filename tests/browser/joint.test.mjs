@@ -30,6 +30,16 @@ const BY_GROOD_AND_SUNTAY = /** @type {const} */ ({ 'Anterior drawer': 'gs_anter
 
 pageTest('the joint', async (page, t) => {
   const truth = await opened(page);
+  await step(page, t, 'its angles in the frame on view stand beside the pose, where both have one', async () => {
+    const angles = page.getByLabel('Joint angles in this frame');
+    const read = async () => [...(await angles.innerText()).matchAll(/(−?\d+\.\d+)/g)].map(([text]) => Number(text.replace('−', '-')));
+    const wanted = ['flexion_deg', 'abduction_deg', 'internal_rotation_deg'].map((name) => /** @type {Record<string, number>} */ (truth[0])[name] ?? NaN);
+    const isNear = (/** @type {number[]} */ now) => now.length === 3 && now.every((angle, at) => Math.abs(angle - (wanted[at] ?? NaN)) < 0.011);
+    await until(read, isNear, `angles of ${wanted}`);
+    for (let frame = 1; frame < GAP; frame++) await page.keyboard.press('f');
+    await until(() => angles.count(), (count) => count === 0, 'no angles where the tibia has no pose');
+    for (let frame = 1; frame < GAP; frame++) await page.keyboard.press('d');
+  });
   await step(page, t, 'is opened by a key, and its numbers are those of another program', async () => {
     await page.keyboard.press('Shift+K');
     await joint(page).getByRole('img', { name: /^Lift-off over frame in 7 frames, / }).waitFor();

@@ -21,6 +21,7 @@ import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
 import { EdgeWatch } from './jobs/edge_watch';
 import { HandJudge } from './jobs/hand_judge';
+import { readJointHere } from './jobs/joint_here';
 import { JointReader } from './jobs/joint_reader';
 import { JointWatch } from './jobs/joint_watch';
 import { Landscapes } from './jobs/landscape';
@@ -81,6 +82,8 @@ async function start(root: HTMLElement): Promise<void> {
   const oneClick = new OneClick(services, matcher, film);
   const tracingTools = new TracingTools(services, oneClick);
   const landscapes = new Landscapes(services.store, matcher);
+  const joint = new JointReader(services, matcher);
+  readJointHere(services.store, joint);
   const hand = new HandActions(services, new FromHere(services, matcher, film), landscapes);
   rememberTaste(services.store);
   const actions = new Actions(services, tracingTools);
@@ -98,7 +101,7 @@ async function start(root: HTMLElement): Promise<void> {
     seeing: new SeeingActions(services.store, hand),
     landscapes,
     edges,
-    joint: new JointReader(services, matcher),
+    joint,
     actions,
     calibrator,
     videos,

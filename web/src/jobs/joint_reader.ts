@@ -1,6 +1,6 @@
 import type { Candidate } from '../document/types';
 import { type JointNumbers, NO_NUMBERS } from '../results/joint_curves';
-import { type JointAsked, jointAsked, type JointFrame } from '../results/motion';
+import { type JointAsked, jointAsked, jointAskedIn, type JointFrame } from '../results/motion';
 import { COMPONENT_NAMES } from '../terms/component';
 import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
 import type { JointFacts, JointModels, JointText, PoseText, PublishedFilm } from '../workers/protocol/joint';
@@ -57,6 +57,19 @@ export class JointReader {
     return this.#shown.numbers;
   }
 
+  /** The numbers of one frame, by the names of their columns; null while they are not known, or where no knee has them. */
+  rowOf(frameId: string): ReadonlyMap<string, number> | null {
+    const asked = jointAskedIn(this.#services.store.doc, frameId);
+    const known = this.#known.get(frameId);
+    if (!asked || !known || known.impossible !== null || !this.#open || this.#key !== keyOf(asked) || this.#missing(asked).length > 0) return null;
+    return new Map(this.#open.facts.columns.map((name, at) => [name, known.row[at] ?? NaN]));
+  }
+
+  /** Works the numbers of one frame out, if they are not known and nothing else is being worked out. */
+  async lookAt(frameId: string): Promise<void> {
+    await this.#lookAt(jointAskedIn(this.#services.store.doc, frameId));
+  }
+
   /** A text of the joint whose numbers are known, by the core. */
   publish(film: PublishedFilm, what: JointText): Promise<string> {
     return this.#worker.call('publish', { film, what });
@@ -79,9 +92,12 @@ export class JointReader {
 
   async #look(): Promise<void> {
     const { store } = this.#services;
-    if (this.#busy || !(store.ui.joint.open || store.ui.popover === 'export')) return;
-    const asked = jointAsked(store.doc);
-    if (!asked || asked.frames.length === 0 || !this.#hasMeshes(asked)) return;
+    if (store.ui.joint.open || store.ui.popover === 'export') await this.#lookAt(jointAsked(store.doc));
+  }
+
+  async #lookAt(asked: JointAsked | null): Promise<void> {
+    const { store } = this.#services;
+    if (this.#busy || !asked || asked.frames.length === 0 || !this.#hasMeshes(asked)) return;
     const key = keyOf(asked);
     const frames = this.#open?.key === key && this.#key === key ? this.#missing(asked) : asked.frames;
     if (frames.length === 0 || this.#refusedJoints.has(key)) return;

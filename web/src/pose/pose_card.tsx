@@ -11,6 +11,7 @@ import { work } from '../workers/activity';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { later } from '../commands/later';
+import { JointHere } from './joint_here';
 import { QUANTITIES, unitWord, type Quantity } from './quantities';
 import { otherThan } from '../terms/component';
 
@@ -59,6 +60,7 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
           ))}
         </dl>
       )}
+      {pose && !adjusting && <JointHere state={store.state} />}
       {refusal !== null && <p class="card-note refused">{refusal}</p>}
       {cell.result?.kind === 'failed' && <Remedies cell={cell} />}
       {!adjusting && <HandButtons cell={cell} adjusting={false} />}

@@ -56,26 +56,38 @@ export interface JointAsked {
   readonly frames: readonly JointFrame[];
 }
 
+/** What is asked of one frame of it; null where a pose is missing. */
+export function jointAskedIn(doc: Doc, frameId: string): JointAsked | null {
+  const index = doc.frames.findIndex(({ id }) => id === frameId);
+  const frames = jointFrame(doc, frameId, index);
+  const joint = jointOf(doc);
+  return joint && frames.length > 0 ? { ...joint, frames } : null;
+}
+
 const asked = new WeakMap<Doc, JointAsked>();
 
 /** Null while the side of the body or the axes of a model are not known. */
 export function jointAsked(doc: Doc): JointAsked | null {
   const known = asked.get(doc);
   if (known) return known;
-  const { side, components } = doc;
-  const [femur, tibia] = [knownAxes(components.femur), knownAxes(components.tibia)];
-  if (side === 'unknown' || !femur || !tibia) return null;
-  const models = { femur: components.femur.model?.sha256 ?? null, tibia: components.tibia.model?.sha256 ?? null };
-  const found = { side, axes: { femur, tibia }, models, frames: posedFrames(doc) };
+  const joint = jointOf(doc);
+  if (!joint) return null;
+  const found = { ...joint, frames: doc.frames.flatMap(({ id }, index) => jointFrame(doc, id, index)) };
   asked.set(doc, found);
   return found;
 }
 
-function posedFrames(doc: Doc): readonly JointFrame[] {
-  return doc.frames.flatMap(({ id }, index) => {
-    const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => chosenCandidate(cellOf(doc, id, component)));
-    return femur && tibia ? [{ id, index, femur, tibia }] : [];
-  });
+function jointOf({ side, components }: Doc): Omit<JointAsked, 'frames'> | null {
+  const [femur, tibia] = [knownAxes(components.femur), knownAxes(components.tibia)];
+  if (side === 'unknown' || !femur || !tibia) return null;
+  const models = { femur: components.femur.model?.sha256 ?? null, tibia: components.tibia.model?.sha256 ?? null };
+  return { side, axes: { femur, tibia }, models };
+}
+
+/** None where a pose is missing. */
+function jointFrame(doc: Doc, id: string, index: number): readonly JointFrame[] {
+  const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => chosenCandidate(cellOf(doc, id, component)));
+  return femur && tibia ? [{ id, index, femur, tibia }] : [];
 }
 
 /** How far the numbers of a frame are to be trusted: as far as the poorer of its two poses. */

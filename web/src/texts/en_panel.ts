@@ -80,6 +80,11 @@ export const panel = {
     even: (drawn: boolean) => `${rival(drawn)} misses just as many pixels: compare both overlays with X.`,
   },
 
+  joint: {
+    region: 'Joint angles in this frame',
+    angles: { flexion: 'Flexion', abduction: 'Abduction', internal_rotation: 'Internal' },
+  },
+
   unmatched: {
     region: 'Unmatched pixels in the canonical frame',
     picture: 'Outline and library view in canonical form, black where they differ',

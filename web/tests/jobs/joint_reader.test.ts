@@ -48,6 +48,20 @@ describe('the reader of the joint', () => {
     expect(reader.numbers).toBe(reader.numbers);
   });
 
+  it('works one frame out that somebody rests on, and has no numbers of it that no knee has, or of other poses', async () => {
+    const { store, reader, asked } = bench();
+    for (const id of ['f5', 'f7']) await reader.lookAt(id);
+    expect(asked()).toEqual([1, 1]);
+    expect(reader.rowOf('f5')).toEqual(new Map([['x', 5]]));
+    expect([reader.rowOf('f7'), reader.rowOf('f6')]).toEqual([null, null]);
+    set(store, 5, 'tibia', 100);
+    expect(reader.rowOf('f5')).toBe(null);
+    await reader.lookAt('f5');
+    expect(reader.rowOf('f5')).toEqual(new Map([['x', 5]]));
+    store.perform(setSide('right'));
+    expect(reader.rowOf('f5')).toBe(null);
+  });
+
   it('works a frame out again whose pose has changed', async () => {
     const { store, reader, asked, rest } = bench();
     store.setJoint({ open: true });
