@@ -14,7 +14,7 @@ export function JointHere({ state }: { state: State }) {
   const row = joint.rowOf(frame.id);
   const words = texts.panel.joint;
   return (
-    <dl class="joint-here" aria-label={words.region}>
+    <dl class="joint-angles" aria-label={words.region}>
       {ANGLES.map((name) => (
         <div key={name}>
           <dt>{words.angles[name]}</dt>
