@@ -38,6 +38,7 @@ if (!IN_FIREFOX) {
 
   pageTest('a film that tells other constants than where it began is followed again, and a reload meanwhile loses nothing', async (page, t) => {
     await tracing.openDemonstration(page, COMPARED);
+    await twoClicks(page);
     await followedWithOtherConstants(page);
     await page.keyboard.press('Shift+G');
     await panel.waitForJob(page, /^Following the film again/);

@@ -18,7 +18,7 @@ use fluoropose_phantom::stl;
 use fluoropose_tests::{femur, surface, tibia};
 
 pub(crate) const SIDE: usize = 512;
-pub(crate) const FRAMES: usize = 4;
+const FRAMES: usize = 4;
 const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.746\n";
 const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
 [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
