@@ -1,7 +1,7 @@
 /** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
 import assert from 'node:assert/strict';
 import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { Calls, PRESS } from './support/calls.mjs';
+import { Calls, followedWithOtherConstants, PRESS } from './support/calls.mjs';
 import { exported } from './support/exporting.mjs';
 import { keepFollowed } from './support/followed.mjs';
 import * as panel from './support/panel.mjs';
@@ -11,9 +11,10 @@ import * as tracing from './support/tracing.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
-const FRAMES = 8;
-/** Of them where it does not matter how far a film is followed. */
-const FEW_FRAMES = 4;
+/** Of the demonstration: each stage of following has something to do. */
+const FRAMES = 3;
+/** So many have to be good for the constants of a film to be compared with them. */
+const COMPARED = 4;
 /** Frames that are looked at until a test goes on: the film is not done sooner than it looks. */
 const LOOK_AT_FEW = { method: 'look', most: 6 };
 /** The frame may have to be decoded; one call may be under way. */
@@ -21,10 +22,10 @@ const MOST_BEFORE_A_CLICK = 2;
 
 if (!IN_FIREFOX) {
   pageTest('one click each, then the film', async (page, t) => {
-    await tracing.openDemonstration(page, FEW_FRAMES);
+    await tracing.openDemonstration(page, FRAMES);
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
-    keepFollowed(await exported(page, 'Session', 'With images and models'), FEW_FRAMES);
+    keepFollowed(await exported(page, 'Session', 'With images and models'), FRAMES);
     await step(page, t, 'a click while it is followed is answered at once', () => clickedMeanwhile(page, t));
     await step(page, t, 'the tool in hand is in hand after a reload', async () => {
       await page.keyboard.press('b');
@@ -36,7 +37,9 @@ if (!IN_FIREFOX) {
   });
 
   pageTest('a film that tells other constants than where it began is followed again, and a reload meanwhile loses nothing', async (page, t) => {
-    await tracing.openDemonstration(page);
+    await tracing.openDemonstration(page, COMPARED);
+    await twoClicks(page);
+    await followedWithOtherConstants(page);
     await page.keyboard.press('Shift+G');
     await panel.waitForJob(page, /^Following the film again/);
     await until(() => panel.cells(page), (cells) => cells.every((cell) => /: (posed|followed)/.test(cell)), 'every cell to keep what was found first');
@@ -46,14 +49,14 @@ if (!IN_FIREFOX) {
     await page.reload();
     await panel.waitForWords(page, /Following the film/);
     assert.deepEqual((await panel.cells(page)).map(withoutDoubt), before.map(withoutDoubt));
-    for (const frame of [1, FRAMES]) {
+    for (const frame of [1, COMPARED]) {
       for (const component of /** @type {const} */ (['femur', 'tibia'])) await isTrue(page, t, component, frame);
-      for (let shown = frame; shown < FRAMES; shown++) await page.keyboard.press('f');
+      for (let shown = frame; shown < COMPARED; shown++) await page.keyboard.press('f');
     }
   });
 
   pageTest('a component that nobody clicked is looked for', async (page, t) => {
-    await tracing.openDemonstration(page, FEW_FRAMES);
+    await tracing.openDemonstration(page, FRAMES);
     await page.getByRole('radio', { name: 'Tibia' }).click();
     const stage = new Stage(page);
     const outline = await trueOutline('tibia', 1);
@@ -127,34 +130,34 @@ async function followed(page, t) {
   await calls.letGo();
   const done = await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) > 0, 'the film to be followed');
   t.diagnostic(done.join('; '));
-  assert.equal(count(done, /: followed(,|$)/), 2 * (FEW_FRAMES - 1), done.join('; '));
+  assert.equal(count(done, /: followed(,|$)/), 2 * (FRAMES - 1), done.join('; '));
   assert.equal(count(done, /so far/), 0);
   await atRest(page);
   await until(async () => page.workers().filter((worker) => /follow/.test(worker.url())).length, (count) => count === 0, 'what a film needed to be let go');
   await page.getByRole('radio', { name: 'Femur' }).click();
-  for (let frame = 1; frame < FEW_FRAMES; frame++) await page.keyboard.press('f');
+  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
   await atRest(page);
-  const [last, truth] = [await panel.waitForPose(page), await truePose('femur', FEW_FRAMES)];
+  const [last, truth] = [await panel.waitForPose(page), await truePose('femur', FRAMES)];
   t.diagnostic(`the last: ${panel.differences(last, truth)}`);
   panel.assertNear(last, truth, tracing.BY_TWO_CLICKS);
   await page.keyboard.press('Control+z');
-  await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FEW_FRAMES - 1), 'all of it to be gone');
+  await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
   await page.keyboard.press('Control+y');
-  await waitForFollowed(page, 2 * (FEW_FRAMES - 1));
+  await waitForFollowed(page, 2 * (FRAMES - 1));
 }
 
 /** Nothing of the film goes before a click: the worker that finds poses gets it next, and answers before the film is followed. @param {Page} page @param {import('node:test').TestContext} t */
 async function clickedMeanwhile(page, t) {
   await page.keyboard.press('Control+z');
-  await until(() => panel.cells(page), (cells) => cells.filter((cell) => /: empty/.test(cell)).length === 2 * (FEW_FRAMES - 1), 'all of it to be gone');
+  await until(() => panel.cells(page), (cells) => cells.filter((cell) => /: empty/.test(cell)).length === 2 * (FRAMES - 1), 'all of it to be gone');
   const stage = new Stage(page);
   await stage.learn();
-  const isPosed = (/** @type {readonly string[]} */ cells) => cells.some((cell) => cell.startsWith(`Frame ${FEW_FRAMES}, femur: posed`));
+  const isPosed = (/** @type {readonly string[]} */ cells) => cells.some((cell) => cell.startsWith(`Frame ${FRAMES}, femur: posed`));
   // What follows the film waits for its frames: the click does not.
   const calls = await Calls.of(page, LOOK_AT_FEW);
   await page.keyboard.press('Shift+G');
   await until(() => panel.cells(page), (cells) => cells.some((cell) => /: followed so far/.test(cell)), 'cells to fill');
-  await stage.click(tracing.insideOf(await trueOutline('femur', FEW_FRAMES)));
+  await stage.click(tracing.insideOf(await trueOutline('femur', FRAMES)));
   await until(() => panel.cells(page), (cells) => isPosed(cells), 'the click to be answered');
   const seen = await calls.seen();
   const since = seen.slice(seen.lastIndexOf(PRESS) + 1);
@@ -162,7 +165,7 @@ async function clickedMeanwhile(page, t) {
   assert(since.slice(0, 1 + MOST_BEFORE_A_CLICK).includes('oneClick'), since.join(', '));
   assert(await page.getByRole('progressbar', { name: /film/ }).count(), 'the film is still followed');
   await calls.letGo();
-  await waitForFollowed(page, 2 * (FEW_FRAMES - 1) - 1);
+  await waitForFollowed(page, 2 * (FRAMES - 1) - 1);
   assert(isPosed(await panel.cells(page)), 'what a person set stays');
 }
 

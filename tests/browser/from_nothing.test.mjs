@@ -17,7 +17,7 @@ import * as panel from './support/panel.mjs';
 import { demoFile } from './support/study.mjs';
 
 const SIDE = 512;
-const FRAMES = 3;
+const FRAMES = 2;
 const CALIBRATION = 'JT_INTCALIB\n1200\n0\n0\n0.746\n';
 const STUDY = "name = 'drawn'\nside = 'left'\ncalibration = 'calibration.txt'\nframes = 'frames'\n[[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
 /** How much darker each component is than what surrounds it. */

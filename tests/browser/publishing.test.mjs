@@ -16,8 +16,8 @@ import { picturesOf } from './support/video.mjs';
 /** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
 /** @typedef {import('fast-png').DecodedPng} Picture */
 
-/** Of the demonstration; the whole of it is followed in `following.test.mjs`. */
-const FRAMES = 4;
+/** Of the demonstration, as in `following.test.mjs`. */
+const FRAMES = 3;
 
 pageTest('what is published', async (page, t) => {
   const opened = await openFollowed(page, FRAMES);

@@ -16,7 +16,7 @@ import { insideOf } from './support/tracing.mjs';
 /** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
 
 /** Of the demonstration. */
-const FRAMES = 4;
+const FRAMES = 2;
 const SIZE = { width: 1024, height: 1024 };
 /** It cuts the femur's box in each frame, and the tibia's stem. */
 const OPEN = { column: 531, row: 531, radius: 172 };

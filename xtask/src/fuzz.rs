@@ -22,7 +22,7 @@ pub(crate) struct Args {
     /// How long
     #[arg(long, value_name = "MINUTES", default_value_t = 1.0)]
     minutes: f64,
-    /// Instead: flip every single bit of libraries, a firmware image and a session, some minutes
+    /// Instead: flip every single bit of libraries, a firmware image, a session, and small frames and models, some minutes
     #[arg(long, conflicts_with = "minutes")]
     flips: bool,
     /// Other changes
@@ -87,5 +87,11 @@ fn flips() -> Result<()> {
         .args(["--", "--nocapture"])
         .env("FLUOROPOSE_EVERY_BIT", "1");
     command::run(&mut tests)?;
+    let mut files = own_cargo();
+    files
+        .args(["test", "-p", "fluoropose-decode", "--test", "decode"])
+        .args(["--", "any_", "small_files_take"])
+        .env("FLUOROPOSE_EVERY_BIT", "1");
+    command::run(&mut files)?;
     sessions(1.0, 1)
 }

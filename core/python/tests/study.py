@@ -12,6 +12,8 @@ from pathlib import Path
 import fluoropose as fp
 
 DEMO = Path(os.environ.get("FLUOROPOSE_DEMO", "demo"))
+# Of its frames and masks, pixels.
+SIDE = 512
 STUDIES = Path(os.environ.get("FLUOROPOSE_STUDIES", "studies"))
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import fluoropose as fp
-from study import DEMO, OnTheDemo
+from study import DEMO, SIDE, OnTheDemo
 
 
 def fixed_two() -> np.ndarray:
@@ -62,7 +62,7 @@ class Arguments(OnTheDemo):
         self.assertEqual(caught.filename, __file__)
         self.assertIn("swapped", found.remarks[0])
         self.assertEqual((found.status, found.because), ("doubtful", found.remarks[0].removeprefix("model: ")))
-        mask = np.zeros((1024, 1024), bool)
+        mask = np.zeros((SIDE, SIDE), bool)
         with self.assertWarnsRegex(UserWarning, "beside_model: .*swapped"):
             fp.estimate(mask, self.tibia, self.camera, role="tibia", beside=np.zeros((1, 6)), beside_model=self.tibia)
         with warnings.catch_warnings():
@@ -95,10 +95,11 @@ class Arguments(OnTheDemo):
                 fp.Camera(skewed, size)
         # A file that names no size is seen with its frames.
         unseen = fp.Camera.from_intcalib(DEMO / "calibration.txt")
-        with self.assertWarnsRegex(UserWarning, "camera: .*focal length, 3217.2 pixels, is 12.5"):
-            found = fp.estimate(np.zeros((256, 256), bool), self.femur, unseen)
+        quarter = SIDE // 4
+        with self.assertWarnsRegex(UserWarning, "camera: .*focal length, 1608.6 pixels, is 12.5"):
+            found = fp.estimate(np.zeros((quarter, quarter), bool), self.femur, unseen)
         self.assertEqual(len(found.remarks), 1)
-        frames = np.zeros((2, 256, 256), np.uint8)
+        frames = np.zeros((2, quarter, quarter), np.uint8)
         frames[1] += 1  # No frame twice, which is told too.
         fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
         with self.assertWarnsRegex(UserWarning, "camera: .*is 12.5") as caught:
@@ -106,27 +107,28 @@ class Arguments(OnTheDemo):
         self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
 
     def test_masks_of_another_size_than_the_cameras_are_told_or_refused(self) -> None:
-        file, half = DEMO / "calibration.txt", np.zeros((512, 512), bool)
+        file, half = DEMO / "calibration.txt", np.zeros((SIDE // 2, SIDE // 2), bool)
+        whole, less = f"{SIDE} x {SIDE}", f"{SIDE // 2} x {SIDE // 2}"
         camera = fp.Camera.from_intcalib(file)
-        fp.estimate(np.zeros((1024, 1024), bool), self.femur, camera)
-        with self.assertWarnsRegex(UserWarning, "these are 512 x 512 pixels, those before 1024 x 1024"):
+        fp.estimate(np.zeros((SIDE, SIDE), bool), self.femur, camera)
+        with self.assertWarnsRegex(UserWarning, f"these are {less} pixels, those before {whole}"):
             found = fp.estimate(half, self.femur, camera)
         self.assertIn("size=(columns, rows)", found.remarks[-1])
         fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
         small = fp.Camera.from_intcalib(file)
         fp.estimate(half, self.femur, small)
-        with self.assertWarnsRegex(UserWarning, "these are 1024 x 1024 pixels, those before 512 x 512") as caught:
+        with self.assertWarnsRegex(UserWarning, f"these are {whole} pixels, those before {less}") as caught:
             film = fp.track(DEMO / "frames", self.femur, None, small, "left", fixed=fixed)
         self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
-        sized = fp.Camera.from_intcalib(file, size=(1024, 1024))
-        self.refused(ValueError, "masks: 512 x 512 pixels, but camera is for 1024 x 1024", lambda: fp.estimate(half, self.femur, sized))
-        wrong = fp.Camera.from_intcalib(file, size=(512, 512))
-        self.refused(ValueError, "frames: 1024 x 1024 pixels", lambda: fp.track(DEMO / "frames", self.femur, None, wrong, "left"))
+        sized = fp.Camera.from_intcalib(file, size=(SIDE, SIDE))
+        self.refused(ValueError, f"masks: {less} pixels, but camera is for {whole}", lambda: fp.estimate(half, self.femur, sized))
+        wrong = fp.Camera.from_intcalib(file, size=(SIDE // 2, SIDE // 2))
+        self.refused(ValueError, f"frames: {whole} pixels", lambda: fp.track(DEMO / "frames", self.femur, None, wrong, "left"))
         assert sized.K is not None
-        np.testing.assert_array_equal(sized.K, camera.matrix(1024, 1024))
+        np.testing.assert_array_equal(sized.K, camera.matrix(SIDE, SIDE))
         self.assertNotEqual(sized, camera)
         self.assertRegex(repr(camera), r"^Camera\(principal distance 1[0-9.]+ mm, principal point .* pixels of 0\.[0-9]+ mm\)$")
-        self.assertRegex(repr(sized), r"^Camera\(K=.*, size=\(1024, 1024\), principal distance")
+        self.assertRegex(repr(sized), rf"^Camera\(K=.*, size=\({SIDE}, {SIDE}\), principal distance")
         self.refused(TypeError, "size ", lambda: fp.Camera.from_intcalib(file, size=1024))  # type: ignore[arg-type]
 
     def test_a_path_in_place_of_pixels_is_told_how_to_become_some(self) -> None:
@@ -134,7 +136,7 @@ class Arguments(OnTheDemo):
         self.refused(TypeError, "mask must be an array, not a path: read the file with fluoropose.read_frames(path)[0]", lambda: fp.estimate(file, one, camera))
         self.refused(TypeError, "masks must be an array, not a path: read the file with fluoropose.read_frames(path)", lambda: fp.estimate_all(file, one, camera))
         self.refused(TypeError, "frame must be an array, not a path", lambda: fp.estimate(None, one, camera, frame=file))
-        mask = np.zeros((1, 1024, 1024), bool)
+        mask = np.zeros((1, SIDE, SIDE), bool)
         self.refused(TypeError, "frames must be an array, not a path", lambda: fp.estimate_all(mask, one, camera, frames=file))  # type: ignore[arg-type]
 
     def test_messages_name_the_argument_and_no_file_that_nobody_gave(self) -> None:
@@ -172,7 +174,7 @@ class Arguments(OnTheDemo):
         told(lambda: fp.read_frames(binary), str(binary))
 
     def test_shapes_and_types_are_told_by_name(self) -> None:
-        mask = np.zeros((1024, 1024), bool)
+        mask = np.zeros((SIDE, SIDE), bool)
         frames = np.zeros((2, 64, 64), np.uint8)
         poses = np.zeros((2, 6))
         small = fp.Camera([[200, 0, 31.5], [0, 200, 31.5], [0, 0, 1]], (64, 64))
@@ -183,7 +185,7 @@ class Arguments(OnTheDemo):
         refused(ValueError, "masks ", lambda: fp.estimate_all(mask, one, self.camera))
         refused(TypeError, "model ", lambda: fp.estimate(mask, "femur.stl", self.camera))  # type: ignore[arg-type]
         refused(TypeError, "camera ", lambda: fp.estimate(mask, one, None))  # type: ignore[arg-type]
-        refused(ValueError, "masks: 1024", lambda: fp.estimate(mask, one, small))
+        refused(ValueError, f"masks: {SIDE}", lambda: fp.estimate(mask, one, small))
         refused(ValueError, "method ", lambda: fp.estimate(mask, one, self.camera, method="guess"))
         refused(ValueError, "frames ", lambda: fp.estimate(mask, one, self.camera, method="image"))
         refused(ValueError, "unknown ", lambda: fp.estimate(mask, one, self.camera, unknown=mask[:5]))
@@ -222,7 +224,7 @@ class Arguments(OnTheDemo):
         refused(ValueError, "fps ", lambda: fp.kinematics(poses, poses, cutoff_hz=3.0, **joint))  # type: ignore[arg-type]
 
     def test_nothing_is_nan_with_a_reason(self) -> None:
-        nothing = fp.estimate(np.zeros((1024, 1024), bool), self.femur, self.camera)
+        nothing = fp.estimate(np.zeros((SIDE, SIDE), bool), self.femur, self.camera)
         self.assertEqual((nothing.status, bool(nothing)), ("none", False))
         self.assertTrue(np.isnan(nothing.pose.numbers).all() and np.isnan(nothing.sd.numbers).all())
         self.assertTrue(np.isnan(nothing.covariance).all() and np.isnan(nothing.pose.matrix).all())
@@ -231,9 +233,9 @@ class Arguments(OnTheDemo):
         self.assertEqual(nothing.settings["model"], self.femur.digest)
 
     def test_a_camera_matrix_is_that_of_the_file(self) -> None:
-        matrix = self.camera.matrix(1024, 1024)
-        by_matrix = fp.Camera(matrix, (1024, 1024))
-        np.testing.assert_allclose(by_matrix.matrix(1024, 1024), matrix, rtol=1e-15)
+        matrix = self.camera.matrix(SIDE, SIDE)
+        by_matrix = fp.Camera(matrix, (SIDE, SIDE))
+        np.testing.assert_allclose(by_matrix.matrix(SIDE, SIDE), matrix, rtol=1e-15)
         mask = fp.read_frames(DEMO / "masks/femur")[0]
         library = fp.estimate(mask, self.femur, self.camera, distance_mm=1000.0).pose.numbers
         np.testing.assert_allclose(fp.estimate(mask, self.femur, by_matrix).pose.numbers, library, atol=1e-6)

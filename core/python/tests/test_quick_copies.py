@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 import fluoropose as fp
-from study import DEMO, OnTheDemo
+from study import DEMO, SIDE, OnTheDemo
 
 
 def pose(given: tuple[fp.Model, fp.Camera, Any]) -> fp.Estimate:
@@ -31,11 +31,11 @@ class Copies(OnTheDemo):
         cls.film = fp.track(DEMO / "frames", cls.femur, cls.tibia, cls.camera, "left", 15.0, fixed=fixed)
 
     def test_models_and_cameras_are_the_same_after_pickling(self) -> None:
-        of_matrix = fp.Camera(self.camera.matrix(1024, 1024), (1024, 1024))
+        of_matrix = fp.Camera(self.camera.matrix(SIDE, SIDE), (SIDE, SIDE))
         for camera in (self.camera, of_matrix):
             for other in (pickle.loads(pickle.dumps(camera)), copy.copy(camera), copy.deepcopy(camera)):
                 self.assertEqual(other, camera)
-                np.testing.assert_array_equal(other.matrix(1024, 1024), camera.matrix(1024, 1024))
+                np.testing.assert_array_equal(other.matrix(SIDE, SIDE), camera.matrix(SIDE, SIDE))
         for other in (pickle.loads(pickle.dumps(self.tibia)), copy.copy(self.tibia), copy.deepcopy(self.tibia)):
             self.assertEqual((other.digest, other.path, other.remarks), (self.tibia.digest, self.tibia.path, self.tibia.remarks))
             np.testing.assert_array_equal(other.vertices, self.tibia.vertices, strict=True)
@@ -61,7 +61,7 @@ class Copies(OnTheDemo):
         self.assertEqual(texts[1:], texts[:1] * 2)
 
     def test_equality_is_of_what_they_hold_and_nan_is_nan(self) -> None:
-        masks = [fp.read_frames(DEMO / "masks/femur")[0], np.zeros((1024, 1024), bool)]
+        masks = [fp.read_frames(DEMO / "masks/femur")[0], np.zeros((SIDE, SIDE), bool)]
         found, nothing = (fp.estimate(mask, self.femur, self.camera) for mask in masks)
         film = self.film
         joint = film.kinematics()

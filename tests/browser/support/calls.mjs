@@ -38,6 +38,24 @@ export class Calls {
   }
 }
 
+/**
+ * Until the page is loaded anew, the worker that compares the film with the constants by which it was followed is told other ones: a film that its constants do not fit would
+ * have to be twice as long.
+ *
+ * @param {Page} page
+ */
+export async function followedWithOtherConstants(page) {
+  await page.evaluate(() => {
+    const own = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = /** @this {Worker} @param {any} message @param {any} transfer */ function (message, transfer) {
+      // Its first number is the curvature of what displays the film: grey values for a factor of e were half as many.
+      const other = (/** @type {{ known: number[] }} */ one) => ({ ...one, known: one.known.map((number, at) => (at === 0 ? 2 * number : number)) });
+      const { method, input } = message;
+      own.call(this, method === 'learntAgain' ? { ...message, input: { ...input, followed: input.followed.map(other) } } : message, transfer);
+    };
+  });
+}
+
 /** Runs in the page. @param {{ method: string, most: number, press: string }} held */
 function note({ method, most, press }) {
   const own = Worker.prototype.postMessage;

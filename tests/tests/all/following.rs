@@ -13,8 +13,10 @@ use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
 use fluoropose_tests::{femur, surface, tibia};
 
-use crate::track::{FRAMES, SIDE, frame};
+use crate::track::{SIDE, frame};
 
+/// Of a film by which a leaning femur is told.
+const FRAMES: usize = 6;
 /// Grey value of a frame in which nothing is.
 const EMPTY: u8 = 200;
 

@@ -18,7 +18,7 @@ use fluoropose_phantom::stl;
 use fluoropose_tests::{femur, surface, tibia};
 
 pub(crate) const SIDE: usize = 512;
-pub(crate) const FRAMES: usize = 6;
+const FRAMES: usize = 4;
 const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.746\n";
 const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
 [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
@@ -204,7 +204,7 @@ fn a_negative_is_followed_and_nobody_says_that_it_is_one() {
 #[test]
 fn fixed_poses_stay_and_other_inputs_are_not_mixed() {
     let film = short("fixed");
-    let all = film.track("all", &[0, 1, 2, 3, 4, 5]).expect("a film");
+    let all = film.track("all", &[0, 1, 2, 3]).expect("a film");
     for (tracked, truth) in all.iter().zip(&film.truth) {
         for (row, truth) in tracked.rows.iter().zip(truth) {
             let given = Pose::from(*truth);

@@ -27,6 +27,7 @@ impl Studies {
             let options = Options {
                 frames: 4,
                 seed,
+                pixels: 512,
                 ..Options::default()
             };
             let study = folder.join(name);
@@ -151,7 +152,7 @@ fn what_is_given_fits_the_film(studies: &Studies) {
     for (words, why) in [
         (
             ["--click", "femur:1:5000,20"],
-            "click femur:1:5000,20: column 5000, row 20 is not on the frame, which has 1024 columns and 1024 rows",
+            "click femur:1:5000,20: column 5000, row 20 is not on the frame, which has 512 columns and 512 rows",
         ),
         (["--click", "femur:1:20,-3"], "row -3 is not on the frame"),
         (["--click", "femur:1:nan,3"], "nan"),

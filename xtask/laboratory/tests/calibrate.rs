@@ -10,7 +10,7 @@ use fluoropose_phantom::picture::write_grey;
 
 const SIDE: usize = 768;
 const SPACING_PX: f64 = 36.0;
-const PART: usize = 400;
+const PART: usize = 260;
 
 /// Pin-cushion of five percent at the edge: the picture of an ideal place.
 fn distorted(column: f64, row: f64) -> (f64, f64) {

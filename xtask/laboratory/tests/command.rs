@@ -82,6 +82,7 @@ fn whoever_ends_the_command_is_told_what_is_kept_and_how_to_go_on() {
     let options = Options {
         frames: 4,
         seed: 3,
+        pixels: 512,
         ..Options::default()
     };
     sequence::write(&options, &folder.0).expect("a study");

@@ -27,6 +27,7 @@ impl Folder {
         let options = Options {
             frames: NAMES.len(),
             seed: 3,
+            pixels: 512,
             ..Options::default()
         };
         sequence::write(&options, &folder.0).expect("a study");

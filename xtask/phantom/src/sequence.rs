@@ -17,11 +17,9 @@ use serde::Serialize;
 use std::fs;
 use std::path::Path;
 
-/// Side of the square frames, pixels.
-const FRAME: usize = 1024;
-/// Focus to detector and pitch of the pixels there, mm.
+/// Focus to detector, and the detector's side, mm.
 const PRINCIPAL_DISTANCE: f64 = 1200.0;
-const PITCH: f64 = 0.373;
+const DETECTOR: f64 = 1024.0 * 0.373;
 /// What the demonstration is called.
 const NAME: &str = "deep-knee-bend";
 
@@ -34,6 +32,8 @@ pub struct Options {
     pub seed: u64,
     /// Left or right knee.
     pub side: Side,
+    /// Side of the square frames, pixels: of the same detector, so that fewer are larger.
+    pub pixels: usize,
     /// What the person does, at the rate of a fluoroscope; else the demonstration's few frames of a deep knee bend.
     pub activity: Option<Activity>,
     /// How the film is made.
@@ -73,12 +73,13 @@ impl Implants {
 }
 
 impl Default for Options {
-    /// What the page shows: 8 frames of a left knee.
+    /// What the page shows: 8 frames of a left knee, 1024 x 1024.
     fn default() -> Self {
         Self {
             frames: 8,
             seed: 1,
             side: Side::Left,
+            pixels: 1024,
             activity: None,
             physics: Physics::default(),
             shutter: 0.0,
@@ -90,6 +91,10 @@ impl Default for Options {
 }
 
 impl Options {
+    fn pitch(&self) -> f64 {
+        DETECTOR / self.pixels as f64
+    }
+
     fn name(&self) -> String {
         let activity = self.activity.as_ref();
         activity.map_or_else(|| NAME.to_owned(), ToString::to_string)
@@ -193,8 +198,9 @@ fn write_frame(
         pose: Pose::from(poses[part][index]),
         motion: options.motion(&poses[part], index),
     });
+    let (side, pitch) = (options.pixels, options.pitch());
     let camera =
-        Camera::from_principal_distance(FRAME, FRAME, PRINCIPAL_DISTANCE, PITCH, [0.0, 0.0])?;
+        Camera::from_principal_distance(side, side, PRINCIPAL_DISTANCE, pitch, [0.0, 0.0])?;
     let scene = Scene {
         camera,
         side: options.side,
@@ -205,11 +211,11 @@ fn write_frame(
     let name = frame_name(index);
     let physics = options.physics_of(index);
     let pixels = film::expose(&scene, &physics, options.seed, index as u64)?;
-    write_grey(&out.join("frames").join(&name), (FRAME, FRAME), &pixels)?;
+    write_grey(&out.join("frames").join(&name), (side, side), &pixels)?;
     for (component, placed) in [("femur", &femur), ("tibia", &tibia)] {
         let words = film::silhouette(&camera, placed)?;
         let path = out.join("masks").join(component).join(&name);
-        write_mask(&path, &Mask::new(&words, FRAME, FRAME)?)?;
+        write_mask(&path, &Mask::new(&words, side, side)?)?;
     }
     Ok(())
 }
@@ -225,7 +231,10 @@ fn write_texts(options: &Options, positions: &[Position], out: &Path) -> Result<
     };
     save(
         "calibration.txt",
-        &format!("JT_INTCALIB\n{PRINCIPAL_DISTANCE}\n0\n0\n{PITCH}\n"),
+        &format!(
+            "JT_INTCALIB\n{PRINCIPAL_DISTANCE}\n0\n0\n{}\n",
+            options.pitch()
+        ),
     )?;
     save("study.toml", &study(&options.name(), options.side))?;
     save("femur.jts", &poses(positions, |position| position.femur)?)?;

@@ -121,11 +121,30 @@ fn cut_anywhere_is_an_error() {
     }
 }
 
+/// How many of so many changes at a place are tried: one, another at each place, or all of them where FLUOROPOSE_EVERY_BIT says so (`cargo xtask fuzz --flips`).
+pub(crate) fn tried(place: usize, of: usize) -> std::ops::Range<usize> {
+    let every = std::env::var("FLUOROPOSE_EVERY_BIT").is_ok_and(|value| value == "1");
+    // So that not all even places have the same.
+    let one = (place + place / of) % of;
+    if every { 0..of } else { one..one + 1 }
+}
+
+#[test]
+fn every_change_is_tried_at_some_place() {
+    for of in [4, 8] {
+        let mut counts = vec![0; of];
+        for place in 0..of * of {
+            tried(place, of).for_each(|change| counts[change] += 1);
+        }
+        assert!(counts.iter().all(|&count| count >= of), "{counts:?}");
+    }
+}
+
 #[test]
 fn any_flipped_bit_is_survived() {
     for sample in SAMPLES.iter() {
         let mut bytes = sample.bytes.clone();
-        for bit in 0..8 * bytes.len() {
+        for bit in (0..bytes.len()).flat_map(|at| tried(at, 8).map(move |bit| 8 * at + bit)) {
             bytes[bit / 8] ^= 1 << (bit % 8);
             read_all(&bytes, sample.name);
             bytes[bit / 8] ^= 1 << (bit % 8);
@@ -133,13 +152,16 @@ fn any_flipped_bit_is_survived() {
     }
 }
 
+/// Counts, lengths and sides.
+const LIES: [[u8; 4]; 4] = [[0xFF; 4], [0; 4], [0xFF, 0xFF, 0xFF, 0x7F], [0, 0, 0, 0x80]];
+
 #[test]
 fn any_four_bytes_of_ones_or_zeros_are_survived() {
     for sample in SAMPLES.iter() {
         for start in 0..sample.bytes.len().saturating_sub(3) {
-            for lie in [[0xFF; 4], [0; 4], [0xFF, 0xFF, 0xFF, 0x7F], [0, 0, 0, 0x80]] {
+            for lie in tried(start, LIES.len()) {
                 let mut bytes = sample.bytes.clone();
-                bytes[start..start + 4].copy_from_slice(&lie);
+                bytes[start..start + 4].copy_from_slice(&LIES[lie]);
                 read_all(&bytes, sample.name);
             }
         }

@@ -5,7 +5,7 @@ use fluoropose_decode::{FrameFile, decode_model};
 use tiff::encoder::Compression;
 use tiff::encoder::colortype::Gray8;
 
-use crate::hostile::read_all;
+use crate::hostile::{read_all, tried};
 use crate::samples::dicom::{Builder, EXPLICIT, JPEG_2000, RLE, run_lengths};
 use crate::samples::every::SAMPLES;
 use crate::samples::{foreign, jpeg2000, pattern, png, tiff};
@@ -38,7 +38,7 @@ fn small_files_take_little_memory_whatever_they_state() {
             false => AT_ONCE + AT_ONCE_PER_BYTE * sample.bytes.len() as u64,
         };
         for at in 0..sample.bytes.len() {
-            for lie in LIES {
+            for lie in tried(at, LIES.len()).map(|lie| LIES[lie]) {
                 let mut bytes = sample.bytes.clone();
                 let end = bytes.len().min(at + lie.len());
                 bytes[at..end].copy_from_slice(&lie[..end - at]);

@@ -76,6 +76,7 @@ pub(super) fn run(args: &ActivityArgs, seed: u64) -> Result<()> {
         second_leg: args.second_leg,
         leaves_field: args.leaves_field,
         implants: implants.transpose()?,
+        ..Options::default()
     };
     sequence::write(&options, out)?;
     println!("{} frames in {}", args.frames, out.display());

@@ -137,6 +137,7 @@ impl Knee {
             second_leg: self.second_leg,
             leaves_field: self.leaves_field,
             implants: Some(of_study(implants, self.side, self.stretch)?),
+            ..Options::default()
         };
         sequence::write(&options, out)
     }
