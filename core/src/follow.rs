@@ -114,7 +114,7 @@ pub use settle::settled;
 pub use settling::{Settling, SettlingStep};
 pub use side_margin::SideMargin;
 pub use side_samples::{SideSample, frames_for_sides, runs_to_go_over};
-pub use sides::{Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
+pub use sides::{KneeFigures, Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::conclusion::Conclusion;
 use super::distrust::Distrust;
+use super::sides::KneeFigures;
 use crate::finder::choice::Counterpart;
 use crate::joint::impossible::impossible_pose;
 use crate::joint::kinematics::relative_pose;
@@ -19,11 +20,15 @@ pub struct KnownFemur {
 }
 
 impl KnownFemur {
-    /// Coronal tilt of a tibial pose against the femur of a frame, degrees, where that is known.
+    /// What the joint of a tibial pose with the femur of a frame says of it, where that is known.
     #[must_use]
-    pub fn tilt_deg(&self, frame: usize, pose: &Pose) -> Option<f64> {
+    pub fn knee(&self, frame: usize, pose: &Pose) -> Option<KneeFigures> {
         let femur = (*self.poses.get(frame)?)?;
-        Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&self.axes)))
+        let tibia = pose.compose(&self.axes);
+        Some(KneeFigures {
+            tilt_deg: Counterpart::Femur(femur).tilt_deg(&tibia),
+            is_impossible: impossible_pose(&relative_pose(&femur, &tibia)).is_some(),
+        })
     }
 
     /// Makes those poses of the tibia doubtful in which its joint would bend or turn as no knee does, of either side of the body. A tray has
@@ -70,6 +75,17 @@ mod tests {
             femur.distrust_impossible(&mut film);
             film.map(|one| one.state)
         };
+        let knee = KnownFemur {
+            poses: vec![Some(turned(0.0).into()), None],
+            axes: Pose::IDENTITY,
+        };
+        let is_impossible = |frame: usize, deg: f64| {
+            let figures = knee.knee(frame, &turned(deg).into());
+            figures.map(|knee| knee.is_impossible)
+        };
+        assert_eq!(is_impossible(0, 80.0), Some(true));
+        assert_eq!(is_impossible(0, 30.0), Some(false));
+        assert_eq!(is_impossible(1, 80.0), None);
         for deg in [80.0, -80.0, 120.0] {
             assert_eq!(film(deg), [State::Followed, State::Doubtful], "{deg}");
         }

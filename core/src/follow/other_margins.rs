@@ -140,8 +140,8 @@ fn is_rejected(samples: &[SideSample], steps: &[SideStep], frame: usize, cells: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::Anchor;
     use crate::follow::fake::turned;
+    use crate::follow::{Anchor, KneeFigures};
 
     const CHOSEN: f64 = 0.6;
 
@@ -166,7 +166,12 @@ mod tests {
         let (samples, cells) = film(others, meeting);
         // As many votes of the tilt would choose them.
         let evidence = samples.iter().map(|sample| {
-            sample.evidence(|pose| Some(if pose == &sample.own.pose { 0.0 } else { 30.0 }))
+            sample.evidence(|pose| {
+                Some(KneeFigures {
+                    tilt_deg: if pose == &sample.own.pose { 0.0 } else { 30.0 },
+                    is_impossible: false,
+                })
+            })
         });
         let evidence: Vec<_> = evidence.collect();
         let mut steps = vec![SideStep::default(); 7];

@@ -374,7 +374,7 @@ impl Settling {
 
 /// The side of each frame that was seen from both, with the femur where that is known.
 fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
-    let evidence = evidence_of(samples, |frame, pose| femur?.tilt_deg(frame, pose));
+    let evidence = evidence_of(samples, |frame, pose| femur?.knee(frame, pose));
     let mut steps = vec![SideStep::default(); evidence.len()];
     choose_sides(&evidence, &mut steps);
     steps

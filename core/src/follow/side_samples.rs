@@ -12,7 +12,7 @@ use super::motion::off_out_of_plane_deg;
 use super::motion::out_of_plane_deg;
 #[cfg(feature = "alloc")]
 use super::sides::SAME_DEG;
-use super::sides::{ONE_DEG, Rival, Side, SideEvidence, SideFigures, SideStep};
+use super::sides::{KneeFigures, ONE_DEG, Rival, Side, SideEvidence, SideFigures, SideStep};
 #[cfg(feature = "alloc")]
 use crate::math::Vector3;
 use crate::pose::{Pose, geodesic_deg};
@@ -51,13 +51,12 @@ pub struct SideSample {
 }
 
 impl SideSample {
-    /// What the frame says of both. `tilt_deg` gives the coronal tilt of a pose against the other component, where that is
-    /// known.
+    /// What the frame says of both. `knee` gives what the joint of a pose with the other component says, where that is known.
     #[must_use]
-    pub fn evidence(&self, tilt_deg: impl Fn(&Pose) -> Option<f64>) -> SideEvidence {
+    pub fn evidence(&self, knee: impl Fn(&Pose) -> Option<KneeFigures>) -> SideEvidence {
         let figures = |found: &FramePose| SideFigures {
             misfit_px: found.misfit_px,
-            tilt_deg: tilt_deg(&found.pose),
+            knee: knee(&found.pose),
         };
         let own = figures(&self.own);
         // Where there is no other side, that speaks for the own; where starts beside it lead back to it, for nothing.
@@ -66,7 +65,7 @@ impl SideSample {
                 Rival::Mirrored => NO_OTHER * own.misfit_px,
                 Rival::Elsewhere => own.misfit_px,
             },
-            tilt_deg: None,
+            knee: None,
         };
         let other = self.free();
         let apart = |other: FramePose| geodesic_deg(&self.own.pose.rotation, &other.pose.rotation);
@@ -175,12 +174,12 @@ impl SideSample {
     }
 }
 
-/// What the frames of a film say of both their poses, in their order. `tilt_deg` gives the coronal tilt of a pose in a frame against
-/// the other component, where that is known.
+/// What the frames of a film say of both their poses, in their order. `knee` gives what the joint of a pose in a frame with the other
+/// component says, where that is known.
 #[cfg(feature = "alloc")]
 pub(super) fn evidence_of(
     samples: &[SideSample],
-    tilt_deg: impl Fn(usize, &Pose) -> Option<f64>,
+    knee: impl Fn(usize, &Pose) -> Option<KneeFigures>,
 ) -> Vec<SideEvidence> {
     let befores = core::iter::once(None).chain(samples.iter().map(Some));
     let each = samples.iter().zip(befores);
@@ -194,7 +193,7 @@ pub(super) fn evidence_of(
             turn_deg: before.map_or(0.0, |before| {
                 out_of_plane_deg(&before.own.pose, &sample.own.pose)
             }),
-            ..sample.evidence(|pose| tilt_deg(sample.frame, pose))
+            ..sample.evidence(|pose| knee(sample.frame, pose))
         }
     });
     evidence.collect()

@@ -1,7 +1,7 @@
 //! Which of two mirrored ways through a film is the right one.
 //!
 //! A trail stays on its side of the mirror as long as both sides are apart, so the evidence of all frames between two
-//! such meetings adds up: residuals where they decide, the coronal tilt against the other component where that is known.
+//! such meetings adds up: residuals where they decide, the joint with the other component where that is known.
 //! The sides of all frames are chosen together by dynamic programming.
 
 use crate::finder::choice::{DECISIVE_RATIO, TILT_MARGIN_DEG};
@@ -12,8 +12,29 @@ use crate::math::ln;
 pub struct SideFigures {
     /// What remains between outline and edges, pixels.
     pub misfit_px: f64,
-    /// Coronal tilt against the other component, degrees, where that is known.
-    pub tilt_deg: Option<f64>,
+    /// What the joint with the other component says, where that is known.
+    pub knee: Option<KneeFigures>,
+}
+
+/// What the joint of a pose with the other component says of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KneeFigures {
+    /// Coronal tilt, degrees.
+    pub tilt_deg: f64,
+    /// Whether it bends, tilts or turns as no knee does.
+    pub is_impossible: bool,
+}
+
+impl KneeFigures {
+    /// What the knee says for a pose and against another, 1 where it decides by itself. A tray seen along its stem and its mirror image may
+    /// tilt alike, and one of them lie upside down.
+    fn for_first(&self, other: &Self) -> f64 {
+        match (self.is_impossible, other.is_impossible) {
+            (true, false) => -1.0,
+            (false, true) => 1.0,
+            _ => ((other.tilt_deg.abs() - self.tilt_deg.abs()) / TILT_MARGIN_DEG).clamp(-1.0, 1.0),
+        }
+    }
 }
 
 /// What another pose of a frame is to the one on the trail.
@@ -137,17 +158,14 @@ impl SideEvidence {
         if self.rival == Rival::Elsewhere {
             return residual.clamp(-MOST, MOST);
         }
-        let tilt = match (self.own.tilt_deg, self.mirrored.tilt_deg) {
-            (Some(own), Some(mirrored)) => (mirrored.abs() - own.abs()) / TILT_MARGIN_DEG,
-            _ => 0.0,
-        };
-        let tilt = tilt.clamp(-1.0, 1.0);
+        let both = self.own.knee.zip(self.mirrored.knee);
+        let knee = both.map_or(0.0, |(own, mirrored)| own.for_first(&mirrored));
         match residual.abs() >= 1.0 {
             // What differs between model and part is the same in all frames, and so are their residuals, and the right side may not have
             // come to its minimum: where the knee tells otherwise, they do not tell by themselves.
-            true if residual * tilt < 0.0 => residual.clamp(-MOST, MOST) + tilt,
+            true if residual * knee < 0.0 => residual.clamp(-MOST, MOST) + knee,
             true => residual.clamp(-MOST, MOST),
-            false => tilt + HINT * residual,
+            false => knee + HINT * residual,
         }
     }
 
@@ -236,7 +254,10 @@ mod tests {
     fn seen(frame: usize, ratio: f64, tilts: Option<[f64; 2]>, apart_deg: f64) -> SideEvidence {
         let figures = |misfit_px: f64, k: usize| SideFigures {
             misfit_px,
-            tilt_deg: tilts.map(|tilts| tilts[k]),
+            knee: tilts.map(|tilts| KneeFigures {
+                tilt_deg: tilts[k],
+                is_impossible: false,
+            }),
         };
         SideEvidence {
             frame,
@@ -269,6 +290,28 @@ mod tests {
             assert_eq!(side, Side::Own);
             assert!(margin >= 4.0, "{margin}");
         }
+    }
+
+    /// Tilts of a tray seen along its stem: both sides are level, and one lies upside down.
+    #[test]
+    fn the_side_that_no_knee_has_is_not_chosen() {
+        let film = |is_impossible: [bool; 2]| -> Vec<SideEvidence> {
+            let frames = (0..8).map(|frame| seen(frame, 0.98, Some([0.9, 1.2]), 177.0));
+            let judged = frames.map(|mut one| {
+                let knees = [&mut one.own.knee, &mut one.mirrored.knee];
+                for (knee, is_impossible) in knees.into_iter().flatten().zip(is_impossible) {
+                    knee.is_impossible = is_impossible;
+                }
+                one
+            });
+            judged.collect()
+        };
+        let chosen = |is_impossible: [bool; 2]| chosen(&film(is_impossible))[0];
+        for (is_impossible, side) in [([true, false], Side::Mirrored), ([false, true], Side::Own)] {
+            let (told, margin) = chosen(is_impossible);
+            assert!(told == side && margin > 4.0, "{told:?} {margin}");
+        }
+        assert_eq!(chosen([true; 2]), chosen([false; 2]));
     }
 
     /// What four frames' residuals tell is one thing told four times.

@@ -63,12 +63,12 @@ pub(super) fn settle(
 fn tell(run: &Run<'_>, part: &Part<'_>, femur: Option<&KnownFemur>, settling: &Settling) {
     for (sample, step) in settling.choice() {
         run.debug(|| {
-            let seen = sample.evidence(|pose| femur?.tilt_deg(sample.frame, pose));
+            let seen = sample.evidence(|pose| femur?.knee(sample.frame, pose));
             let (own, other) = (seen.own, seen.mirrored);
             let (name, frame, deg) = (part.name(), seen.frame + 1, seen.apart_deg);
             format!(
                 "{name} frame {frame}: own {:.3} px {:?}, {:?} {:.3} px {:?}, {deg:.1} deg apart: {step:?}",
-                own.misfit_px, own.tilt_deg, seen.rival, other.misfit_px, other.tilt_deg
+                own.misfit_px, own.knee, seen.rival, other.misfit_px, other.knee
             )
         });
     }
