@@ -11,6 +11,7 @@ mod name;
 mod pose_rows;
 mod poses;
 mod role;
+mod stated_axes;
 mod study;
 mod text;
 

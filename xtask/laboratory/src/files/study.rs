@@ -19,6 +19,7 @@ use keys::Checked;
 
 use super::model::{Unit, read_model_in};
 use super::role::Role;
+use super::stated_axes::axes_doubt;
 use super::text::read_text;
 
 /// So many letters in which a name differs may be slips.
@@ -176,7 +177,7 @@ impl Component {
     /// # Errors
     /// Those of [`Self::read_model`].
     pub fn read_model_and_remarks(&self) -> Result<(OwnedModel, Vec<String>)> {
-        let (owned, remarks) = read_model_in(&self.model, self.unit(), self.role())?;
+        let (owned, mut remarks) = read_model_in(&self.model, self.unit(), self.role())?;
         let bounds = owned.as_model().bounds();
         match suspected_unit(&bounds) {
             Some(suspected) if self.unit.is_none() => {
@@ -189,7 +190,11 @@ impl Component {
                     words.join(" or ")
                 )
             }
-            _ => Ok((owned, remarks)),
+            _ => {
+                let stated = self.role().zip(self.axes.as_deref());
+                remarks.extend(stated.and_then(|(role, words)| axes_doubt(&owned, role, words)));
+                Ok((owned, remarks))
+            }
         }
     }
 }
