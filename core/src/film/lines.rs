@@ -195,6 +195,21 @@ pub fn measure(
     heads: &mut [u16],
     groups: &mut [LineGroup],
 ) -> Result<(), RenderError> {
+    let images = project(model.mesh(), camera, pose, scratch)?;
+    measure_by(images, (model, camera, pose), lines, heads, groups)
+}
+
+/// The same by the images of all vertices.
+///
+/// # Errors
+/// [`RenderError`] where memory is too short.
+pub(crate) fn measure_by(
+    images: &[Projected],
+    (model, camera, pose): (&Model<'_>, &Camera, &Pose),
+    lines: &mut [PathLine],
+    heads: &mut [u16],
+    groups: &mut [LineGroup],
+) -> Result<(), RenderError> {
     let heads = first("heads of lists", heads_needed(), heads)?;
     let groups = first("groups of lines", groups_needed(lines.len()), groups)?;
     if lines.len() > MOST_LINES {
@@ -205,7 +220,6 @@ pub fn measure(
         }
         .into());
     }
-    let images = project(model.mesh(), camera, pose, scratch)?;
     for line in &mut *lines {
         let Course {
             origin, direction, ..

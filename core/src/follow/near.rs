@@ -5,7 +5,6 @@ use heapless::Vec;
 
 use super::subject::Subject;
 use crate::finder::nearby::about;
-use crate::image::profile::grey_across;
 use crate::math::{Vector3, norm, radians, scale, sin_cos};
 use crate::pose::Pose;
 use crate::refine::edge::is_known;
@@ -273,8 +272,9 @@ impl Sliding<'_> {
             }
             let place = [0, 1].map(|k| [column, row][k] + self.outline.middle[k] + shift[k]);
             let grey = |t| {
+                let [column, row] = [place[0] + t * right, place[1] + t * down];
                 is_known(self.image, place, [right, down], t)
-                    .then(|| grey_across(self.image.frame, place, [right, down], &[1.0], t))
+                    .then(|| self.image.frame.at(column, row))
                     .flatten()
             };
             let (Some(outside), Some(inside)) = (grey(HALF_PX), grey(-HALF_PX)) else {

@@ -137,7 +137,9 @@ impl StraightLine {
     #[must_use]
     #[inline]
     pub fn place(&self, number: usize) -> [f64; 2] {
-        let t = self.expected + self.step * (number as f64 - self.middle as f64);
+        // Numbers of 32 bits become floating point in one instruction.
+        let from_middle = f64::from(number as i32) - f64::from(self.middle as i32);
+        let t = self.expected + self.step * from_middle;
         [0, 1].map(|k| self.origin[k] + t * self.direction[k] + self.aside[k])
     }
 }
@@ -359,19 +361,30 @@ impl<P: Pixel> Frame<'_, P> {
         }
         // All places lie between the ends, and four pixels round each.
         for (number, sum) in sums.iter_mut().enumerate() {
-            let [column, row] = line.place(number).map(|x| x - 0.5);
-            let (left, above) = (column as i32, row as i32);
-            let (right, down) = (column - f64::from(left), row - f64::from(above));
-            let first = above as usize * self.stride + left as usize;
+            let place = line.place(number).map(|x| x - 0.5);
+            let below = place.map(whole_below);
+            let [right, down] = [place[0] - below[0], place[1] - below[1]];
+            let [left, above] = below.map(|x| (x + WHOLE).to_bits() as u32 as usize);
+            let first = above.wrapping_mul(self.stride).wrapping_add(left);
+            let value = |place: usize| self.pixels.get(place).map(|&pixel| of(pixel.into()));
             let two = |first: usize| {
-                let [a, b] = *self.pixels.get(first..)?.first_chunk()?;
-                Some(of(a.into()) * (1.0 - right) + of(b.into()) * right)
+                Some(value(first)? * (1.0 - right) + value(first.wrapping_add(1))? * right)
             };
-            let (upper, lower) = (two(first)?, two(first + self.stride)?);
+            let (upper, lower) = (two(first)?, two(first.wrapping_add(self.stride))?);
             *sum += weight * (upper * (1.0 - down) + lower * down);
         }
         Some(())
     }
+}
+
+/// Beside this number there are whole ones alone, and their low bits count them.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// The whole number below one from 0 on, of 31 bits at most. Without a branch, so that several are found at once.
+#[inline(always)]
+fn whole_below(x: f64) -> f64 {
+    let near = (x + WHOLE) - WHOLE;
+    near - if near > x { 1.0 } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -439,6 +452,16 @@ mod tests {
                     })
                     .collect();
                 prop_assert_eq!(added.map(|()| sums), each);
+            }
+        }
+    }
+
+    properties! {
+        #[test]
+        fn the_whole_number_below_is_that_of_the_library(x in 0.0..2e5f64, whole in 0..i32::MAX, near in -1e-9..1e-9f64) {
+            for x in [x, f64::from(whole), (f64::from(whole % 5000) + near).max(0.0), libm::floor(x) + 0.5] {
+                prop_assert_eq!(whole_below(x), libm::floor(x));
+                prop_assert_eq!((whole_below(x) + WHOLE).to_bits() as u32, x as u32);
             }
         }
     }

@@ -250,12 +250,14 @@ fn bit_by_bit(number: u64, by: u32) -> (u32, u32) {
 
 /// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
 /// Most triangles of a CAD model are smaller than a pixel and cover none.
-pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
-    let range = |of: fn(FixedPoint) -> i32| {
-        let [a, b, c] = corners.map(of);
-        first_centre(a.min(b).min(c))..first_centre(a.max(b).max(c))
-    };
-    [range(|corner| corner.column), range(|corner| corner.row)]
+#[inline]
+pub(crate) fn pixel_box([a, b, c]: [FixedPoint; 3]) -> [Range<i32>; 2] {
+    let range =
+        |a: i32, b: i32, c: i32| first_centre(a.min(b).min(c))..first_centre(a.max(b).max(c));
+    [
+        range(a.column, b.column, c.column),
+        range(a.row, b.row, c.row),
+    ]
 }
 
 /// Least and greatest column and row of a triangle, in units of 1/4096 pixel, and what rounding elsewhere, by up to a thousandth of a pixel, may

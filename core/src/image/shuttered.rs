@@ -2,7 +2,7 @@
 
 use super::display::QuickCurve;
 use super::frame::{Frame, Grey, Pixel, StraightLine};
-use super::mask::{Mask, MaskError, Word};
+use super::mask::{Mask, MaskError, WORD_BITS, Word};
 
 /// A grey frame, and the pixels of it that are not the picture. Between these nothing is read, as beyond the outermost centres.
 #[derive(Clone, Copy, Debug)]
@@ -42,9 +42,27 @@ fn is_open(behind: &Mask<'_>, [column, row]: [f64; 2]) -> bool {
     behind.square(left, above) & counted == 0
 }
 
-/// The same of so many places of a line.
+/// The same of so many places of a line. Near most lines is no shutter, which the rows that they cross tell sooner.
 fn are_open(behind: &Mask<'_>, line: &StraightLine, count: usize) -> bool {
-    (0..count).all(|number| is_open(behind, line.place(number)))
+    let ends = [0, count.saturating_sub(1)].map(|end| line.place(end));
+    is_box_open(behind, ends) || (0..count).all(|number| is_open(behind, line.place(number)))
+}
+
+/// Whether no pixel of the box between two places is behind the shutter, nor one around it.
+fn is_box_open(behind: &Mask<'_>, [one, other]: [[f64; 2]; 2]) -> bool {
+    // What lies before the frame is cut off.
+    let range = |axis: usize| {
+        let (low, high) = (one[axis].min(other[axis]), one[axis].max(other[axis]));
+        (low as usize).saturating_sub(2)..(high as usize).saturating_add(2)
+    };
+    let (columns, rows) = (range(0), range(1));
+    let rows = rows.start..rows.end.min(behind.height());
+    let words = columns.start / WORD_BITS..columns.end.min(behind.width()).div_ceil(WORD_BITS);
+    let is_clear = |row: usize| {
+        let words = behind.row(row).get(words.clone()).unwrap_or_default();
+        words.iter().all(|&word| word == 0)
+    };
+    rows.is_empty() || words.is_empty() || rows.clone().all(is_clear)
 }
 
 impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {

@@ -62,22 +62,30 @@ impl Tiles {
         [at(column, self.column), at(row, self.row)]
     }
 
-    /// The tiles that a box of columns and rows meets; `None` where it meets none with a pixel of the list.
-    pub(crate) fn under(&self, place: [Range<i32>; 2]) -> Option<[Range<usize>; 2]> {
-        let tiles = |place: Range<i32>, first: i32| {
-            let [low, high] =
-                [place.start, place.end - 1].map(|pixel| (pixel - first) >> self.places);
-            let is_met = low <= high && high >= 0 && low <= LAST;
-            is_met.then(|| low.max(0) as usize..high.min(LAST) as usize + 1)
-        };
-        let [columns, rows] = place;
-        let [columns, rows] = tiles(columns, self.column)
-            .zip(tiles(rows, self.row))
-            .map(<[_; 2]>::from)?;
-        let wanted = (u128::MAX >> (TILES - columns.len())) << columns.start;
-        let marked = self.marked.get(rows.clone()).unwrap_or_default();
-        let meets = marked.iter().any(|row| row & wanted != 0);
-        meets.then_some([columns, rows])
+    /// Whether a box of columns and rows meets a tile with a pixel of the list. Most of what is asked is smaller than a tile.
+    #[inline]
+    pub(crate) fn meets(&self, [columns, rows]: &[Range<i32>; 2]) -> bool {
+        if columns.is_empty() | rows.is_empty() {
+            return false;
+        }
+        let tile = |pixel: i32, first: i32| (pixel - first) >> self.places;
+        let [left, top] = [tile(columns.start, self.column), tile(rows.start, self.row)];
+        let [right, bottom] = [
+            tile(columns.end - 1, self.column),
+            tile(rows.end - 1, self.row),
+        ];
+        if (right < 0) | (bottom < 0) | (left > LAST) | (top > LAST) {
+            return false;
+        }
+        let [left, right] = [left.max(0) as usize, right.min(LAST) as usize];
+        if (left == right) & (top == bottom) {
+            let row = self.marked.get(top as usize).copied().unwrap_or_default();
+            return row >> left & 1 != 0;
+        }
+        let wanted = (u128::MAX >> (LAST as usize + left - right)) << left;
+        let rows = top.max(0) as usize..bottom.min(LAST) as usize + 1;
+        let marked = self.marked.get(rows).unwrap_or_default();
+        marked.iter().any(|row| row & wanted != 0)
     }
 
     /// The tiles that the box of a triangle meets, marked or not, as columns and rows from one on and up to another; `None` where it lies
@@ -114,10 +122,27 @@ mod tests {
             let tiles = Tiles::of(pixels.iter().copied(), 2);
             let [column, row] = *pick.get(&pixels);
             let around = [column - left..column + right + 1, row - up..row + down + 1];
-            let [columns, rows] = tiles.under(around).expect("it holds one");
-            let [at, down] = tiles.tile([column, row]);
-            prop_assert!(columns.contains(&at) && rows.contains(&down));
-            prop_assert!(tiles.under([-900..-800, row..row + 1]).is_none());
+            prop_assert!(tiles.meets(&around));
+            prop_assert!(!tiles.meets(&[-900..-800, row..row + 1]));
+            prop_assert!(!tiles.meets(&[column..column, row..row + 1]));
+        }
+
+        #[test]
+        fn a_box_meets_what_one_of_its_tiles_holds(
+            pixels in proptest::collection::vec(proptest::array::uniform2(-5..3000i32), 1..40),
+            [column, row] in proptest::array::uniform2(-60..3060i32),
+            [wide, high] in proptest::array::uniform2(0..120i32),
+        ) {
+            let tiles = Tiles::of(pixels.iter().copied(), 2);
+            let (columns, rows) = (column..column + wide, row..row + high);
+            let at = |pixel: i32, first: i32| (pixel - first) >> tiles.places;
+            let holds = |range: &Range<i32>, pixel: i32, first: i32| {
+                range.clone().any(|inside| at(inside, first) == at(pixel, first))
+            };
+            let naive = pixels.iter().any(|&[x, y]| {
+                holds(&columns, x, tiles.column) && holds(&rows, y, tiles.row)
+            });
+            prop_assert_eq!(tiles.meets(&[columns, rows]), naive);
         }
     }
 }

@@ -89,7 +89,7 @@ impl DrawnModel<'_> {
         places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
-        if images.make_all().is_err() {
+        if !self.all && images.make_all().is_err() {
             // What was drawn has images: it is not reached.
             return;
         }
@@ -98,7 +98,7 @@ impl DrawnModel<'_> {
             .map(|pixel| [pixel.column, pixel.row].map(i32::from));
         let tiles = Tiles::of(pixels, 0);
         let (width, height) = (self.drawn.width(), self.drawn.height());
-        let wanted = |corners| tiles.under(pixel_box(corners)).is_some();
+        let wanted = |corners| tiles.meets(&pixel_box(corners));
         let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
             let cut = |column: i64| column.clamp(0, width as i64) as usize;
             let mut depth = None;
@@ -106,13 +106,21 @@ impl DrawnModel<'_> {
                 pixel.cover(*depth.get_or_insert_with(|| self.depth_of(triangle)));
             });
         };
-        for_each_span(
-            self.model,
-            |vertex| images.of(vertex),
-            height,
-            wanted,
-            visit,
-        );
+        match images.all() {
+            // Of a frame each step asks all triangles.
+            Some(all) if cfg!(feature = "frames") => {
+                let image = |vertex: u32| all.get(vertex as usize).copied();
+                let image = |vertex| image(vertex).unwrap_or(Projected::NONE);
+                for_each_span(self.model, image, height, wanted, visit);
+            }
+            _ => for_each_span(
+                self.model,
+                |vertex| images.of(vertex),
+                height,
+                wanted,
+                visit,
+            ),
+        }
     }
 
     /// Mean distance of a triangle's corners from the camera plane, mm.
@@ -212,6 +220,7 @@ mod tests {
             pose: &pose,
             drawn: &drawn,
             sampling: Sampling::ALL,
+            all: false,
         };
         // What the memory held before does not matter.
         let mut places = vec![7; places_needed(SIDE)];

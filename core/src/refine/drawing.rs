@@ -3,13 +3,13 @@
 use super::border::BorderPixel;
 use super::error::RefineError;
 use super::memory::RefineMemory;
-use super::outline::{DrawnModel, Sampling};
+use super::outline::{Depth, DrawnModel, Sampling};
 use crate::camera::Camera;
 use crate::film::LineMemory;
 use crate::image::mask::{Mask, MaskMut, words_needed};
 use crate::mesh::Model;
 use crate::pose::Pose;
-use crate::render::{Projected, render};
+use crate::render::{Projected, render_with};
 
 /// What drawing leaves in working memory, and the memory that it leaves.
 pub(super) struct Drawing<'m, 'a> {
@@ -18,6 +18,8 @@ pub(super) struct Drawing<'m, 'a> {
     /// The samples of its outline.
     pub(super) border: &'m mut [BorderPixel],
     pub(super) projected: &'m mut [Projected],
+    /// Whether it holds the images of all vertices.
+    pub(super) all: bool,
     pub(super) film: &'m mut LineMemory<'a>,
 }
 
@@ -35,7 +37,9 @@ pub(super) fn draw<'m, 'a>(
     let (width, height) = (camera.width(), camera.height());
     let words = memory.drawn.get_mut(..words_needed(width, height));
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    render(model, camera, pose, memory.projected, &mut drawn)?;
+    // Of an outline's depth alone few are wanted.
+    let all = cfg!(feature = "frames") && sampling.depth != Depth::Edges;
+    let all = render_with(model, camera, pose, memory.projected, &mut drawn, all)?;
     let drawn = drawn.into_mask();
     let outliner = DrawnModel {
         model,
@@ -43,12 +47,14 @@ pub(super) fn draw<'m, 'a>(
         pose,
         drawn: &drawn,
         sampling,
+        all,
     };
     let border = outliner.border(memory.projected, memory.places, memory.border)?;
     Ok(Drawing {
         drawn,
         border,
         projected: memory.projected,
+        all,
         film: &mut memory.film,
     })
 }

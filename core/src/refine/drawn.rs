@@ -5,12 +5,12 @@ use super::error::RefineError;
 use super::stages::Stage;
 use super::view::CameraView;
 use crate::film::edge::EdgeFilter;
-use crate::film::lines::measure;
+use crate::film::lines::measure_by;
 use crate::film::{LineMemory, PathLine};
 use crate::memory::first;
 use crate::mesh::Model;
 use crate::pose::Pose;
-use crate::render::Projected;
+use crate::render::{Projected, VERTICES, project};
 
 /// Lines across the outline, one for each sample; none where edges are taken to lie on the outline.
 #[derive(Clone, Copy)]
@@ -30,7 +30,7 @@ impl<'l> DrawnEdges<'l> {
         view: &CameraView<'_>,
         stage: &Stage,
         border: &mut [BorderPixel],
-        scratch: &mut [Projected],
+        (scratch, all): (&mut [Projected], bool),
         memory: &'l mut LineMemory<'_>,
     ) -> Result<Self, RefineError> {
         let film = view.target.film().filter(|_| stage.drawn);
@@ -45,15 +45,12 @@ impl<'l> DrawnEdges<'l> {
             let across = PathLine::at(sample.place(), sample.normal().map(f64::from));
             *line = across.starting_at(first_place);
         }
-        measure(
-            model,
-            view.camera,
-            pose,
-            scratch,
-            lines,
-            memory.heads,
-            memory.groups,
-        )?;
+        let images = match all {
+            true => first(VERTICES, model.vertices().len(), scratch)?,
+            false => project(model.mesh(), view.camera, pose, scratch)?,
+        };
+        let seen = (model, view.camera, pose);
+        measure_by(images, seen, lines, memory.heads, memory.groups)?;
         for (line, sample) in lines.iter().zip(border) {
             if let Some(depths) = line.depths() {
                 depths

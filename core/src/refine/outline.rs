@@ -80,6 +80,8 @@ pub(super) struct DrawnModel<'a> {
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
     pub(super) sampling: Sampling,
+    /// Whether the images of all vertices were made.
+    pub(super) all: bool,
 }
 
 impl DrawnModel<'_> {

@@ -299,12 +299,14 @@ impl<'a> Problem<'a> {
             drawn,
             border,
             projected,
+            all,
             film,
         } = draw(self.model, view.camera, in_camera, sampling, memory)?;
         if view.target.hides(&drawn) {
             return Err(RefineError::BeyondCrop);
         }
-        let edges = DrawnEdges::of(self.model, in_camera, view, stage, border, projected, film)?;
+        let images = (projected, all);
+        let edges = DrawnEdges::of(self.model, in_camera, view, stage, border, images, film)?;
         let count = border.len();
         let eye = Eye {
             view,

@@ -40,6 +40,7 @@ pub fn film_profiles(
         border,
         projected,
         film,
+        ..
     } = draw(model, camera, pose, sampling, memory)?;
     let lines = first("lines across the outline", border.len(), film.lines)?;
     for (line, sample) in lines.iter_mut().zip(&*border) {

@@ -72,19 +72,42 @@ pub fn render(
     scratch: &mut [Projected],
     out: &mut MaskMut<'_>,
 ) -> Result<(), RenderError> {
+    render_with(model, camera, pose, scratch, out, false).map(drop)
+}
+
+/// The same; where `all` images of vertices are wanted, for whoever asks all triangles afterwards, they are made at once, several side by
+/// side. Gives whether working memory holds them.
+///
+/// # Errors
+/// Those of [`render`].
+pub(crate) fn render_with(
+    model: &Model<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    scratch: &mut [Projected],
+    out: &mut MaskMut<'_>,
+    all: bool,
+) -> Result<bool, RenderError> {
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
     let (slots, room) = parts(model, scratch)?;
+    let all = cfg!(feature = "frames") && all && slots.len() == model.vertices().len();
+    if all {
+        Images::left(model.mesh(), camera, pose, slots).make_all()?;
+    }
     if let Some(edges) = model.edges() {
         let reach = Reach::of(&model.bounds(), pose);
         let facing = FacingTest::new(model.mesh(), camera, pose, &reach);
-        if !facing.sees_all() {
+        if !all && !facing.sees_all() {
             check_images(model.vertices(), camera, pose)?;
         }
-        let mut images = Images::new(model.mesh(), camera, pose, slots).reaching(reach);
-        if winding::fill(&facing, &edges, &mut images, room, out) {
-            return Ok(());
+        let images = match all {
+            true => Images::left(model.mesh(), camera, pose, slots),
+            false => Images::new(model.mesh(), camera, pose, slots),
+        };
+        if winding::fill(&facing, &edges, &mut images.reaching(reach), room, out) {
+            return Ok(all);
         }
     }
     let mut images = Images::new(model.mesh(), camera, pose, slots);
@@ -99,7 +122,7 @@ pub fn render(
             out.fill_span(row, from, to);
         },
     );
-    Ok(())
+    Ok(all)
 }
 
 /// Calls `visit(triangle, row, from, to)` for each row of each triangle that is `wanted` and

@@ -116,6 +116,11 @@ impl<'i> Images<'i> {
         }
     }
 
+    /// The images of all vertices, where each has a slot and all were made.
+    pub(crate) fn all(&self) -> Option<&[Projected]> {
+        (self.slots.len() == self.vertices.len()).then_some(&*self.slots)
+    }
+
     /// The vertices in model coordinates, mm.
     pub(crate) fn vertices(&self) -> &'i [[f32; 3]] {
         self.vertices

@@ -26,6 +26,9 @@ pub(crate) fn luminance(red: u16, green: u16, blue: u16) -> u16 {
 /// Interleaved 8-bit pixels of `channels` samples, of which the first three are red, green and blue, or the
 /// first is grey where there are fewer than three. Further samples (transparency) are left out.
 pub(crate) fn grey_from_u8(samples: &[u8], channels: usize) -> Vec<u8> {
+    if channels == 1 {
+        return samples.to_vec();
+    }
     samples
         .chunks_exact(channels)
         .map(|pixel| match *pixel {
