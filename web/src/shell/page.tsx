@@ -3,9 +3,9 @@ import { actionFor, type KeyInput } from '../commands/bindings';
 import { runCheckKey } from '../commands/check_keys';
 import { texts } from '../texts/texts';
 import { useApp, useAppState } from '../commands/app';
+import { later } from '../commands/later';
 import { useDropTarget } from '../steps/open/drop';
 import { runHandOrSeeingKey } from './hand_keys';
-import { Panel } from './panel';
 import { Popovers } from './popovers';
 import { Rail } from './rail';
 import { JointDock } from '../steps/joint/joint_dock';
@@ -14,6 +14,9 @@ import { StatusLine } from './status_line';
 import { Timeline } from '../strip/timeline';
 import { ToolStrip } from './tool_strip';
 import { TopBar } from './top_bar';
+
+/** Wanted with the first frame. */
+const Panel = later(async () => (await import('./panel')).Panel);
 
 export function Page() {
   const state = useAppState();
