@@ -1,5 +1,6 @@
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
+import { indexOfFrame } from '../document/frame_index';
 import { bare, takeHandFit, type HandFit } from '../document/hand_poses';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
 import type { Locks, PoseNumbers } from '../geometry/pose_numbers';
@@ -130,7 +131,7 @@ function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate
 }
 
 export function frameOf(doc: Doc, place: Place): FrameEntry | null {
-  return doc.frames.find((frame) => frame.id === place.frameId) ?? null;
+  return doc.frames[indexOfFrame(doc, place.frameId)] ?? null;
 }
 
 function flagsOf(locks: Locks): boolean[] {

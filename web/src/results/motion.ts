@@ -1,4 +1,5 @@
 import { isAssumed, knownAxes } from '../document/axes';
+import { indexOfFrame } from '../document/frame_index';
 import { checkState, markOf, NO_MARK } from '../document/marks';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
 import type { Directions } from '../geometry/axes';
@@ -58,8 +59,7 @@ export interface JointAsked {
 
 /** What is asked of one frame of it; null where a pose is missing. */
 export function jointAskedIn(doc: Doc, frameId: string): JointAsked | null {
-  const index = doc.frames.findIndex(({ id }) => id === frameId);
-  const frames = jointFrame(doc, frameId, index);
+  const frames = jointFrame(doc, frameId, indexOfFrame(doc, frameId));
   const joint = jointOf(doc);
   return joint && frames.length > 0 ? { ...joint, frames } : null;
 }
