@@ -72,7 +72,7 @@ pub enum Doubt {
         mm: f64,
     },
     /// The model has the size of no knee's component: every length may be of another unit.
-    NoKnee {
+    ImplausibleSize {
         /// How wide it is, mm.
         mm: f64,
     },
@@ -187,7 +187,7 @@ impl fmt::Display for Doubt {
                 "it would lie {} mm behind the detector: is the calibration of frames of another size, or the model in another unit?",
                 Decimal::new(mm, 0)
             ),
-            Self::NoKnee { mm } => write!(
+            Self::ImplausibleSize { mm } => write!(
                 f,
                 "the model is {} mm across, which no component of a knee is: is its file in another unit?",
                 Decimal::new(mm, 2)
@@ -296,9 +296,9 @@ fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {
 
 fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     let limit_px = limits.good_px.min(limits.good_part * fit.size_px);
-    if fit.no_knee_mm > 0.0 {
-        let mm = fit.no_knee_mm;
-        return Some(Doubt::NoKnee { mm });
+    if fit.implausible_width_mm > 0.0 {
+        let mm = fit.implausible_width_mm;
+        return Some(Doubt::ImplausibleSize { mm });
     }
     if fit.behind_mm > 0.0 {
         let mm = fit.behind_mm;
@@ -350,13 +350,13 @@ mod tests {
 
     #[test]
     fn a_model_of_no_knees_size_is_never_good() {
-        let judged = |no_knee_mm: f64| {
+        let judged = |implausible_width_mm: f64| {
             let fit = Fit {
                 size_px: 150.0,
                 met: 1.0,
                 known: 1.0,
                 behind_mm: 20.0,
-                no_knee_mm,
+                implausible_width_mm,
                 ..Fit::default()
             };
             judge_fit(&fit, true, &Limits::USUAL).to_string()

@@ -43,7 +43,7 @@ pub enum Distrust {
     /// It lies so far behind the detector, mm.
     Behind(f64),
     /// The model is so wide, mm, as no component of a knee is.
-    NoKnee(f64),
+    ImplausibleSize(f64),
     /// The model has the shape of this component, which is the other one.
     Shape(KneeComponent),
     /// Its joint with the femur would do this, which no knee does.
@@ -68,7 +68,7 @@ impl Distrust {
             Self::Undetermined(_) => "undetermined",
             Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
             Self::Shape(_) => "shape",
-            Self::NoKnee(_) => "unit",
+            Self::ImplausibleSize(_) => "unit",
             Self::Knee(_) | Self::Mirrored(_) => "joint",
         }
     }
@@ -131,7 +131,7 @@ impl fmt::Display for Distrust {
                 "it lies {mm:.0} mm behind the other component along the view, which no joint does"
             ),
             Self::Behind(mm) => Doubt::Behind { mm }.fmt(f),
-            Self::NoKnee(mm) => Doubt::NoKnee { mm }.fmt(f),
+            Self::ImplausibleSize(mm) => Doubt::ImplausibleSize { mm }.fmt(f),
             Self::Knee(what) => what.fmt(f),
             Self::Mirrored(beside) => beside.fmt(f),
             Self::Shape(shape) => {

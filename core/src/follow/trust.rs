@@ -27,7 +27,7 @@ pub struct FrameEvidence {
 /// How bad it is where no part can be: nothing that a film tells is worse.
 const BEHIND: f64 = 1e3;
 /// Of a model of no knee's size, which lies there for that reason.
-const NO_KNEE: f64 = 2e3;
+const IMPLAUSIBLE_SIZE: f64 = 2e3;
 /// A rotation of which nothing is known.
 const ALL_DEG: f64 = 180.0;
 
@@ -266,8 +266,11 @@ impl Trust {
 
     /// What a frame by itself says of its pose.
     fn weigh_fit(&mut self, found: &FramePose, limits: &TrustLimits, usual: &Usual) {
-        if found.fit.no_knee_mm > 0.0 {
-            self.weigh(NO_KNEE, Distrust::NoKnee(found.fit.no_knee_mm));
+        if found.fit.implausible_width_mm > 0.0 {
+            self.weigh(
+                IMPLAUSIBLE_SIZE,
+                Distrust::ImplausibleSize(found.fit.implausible_width_mm),
+            );
         }
         if found.fit.behind_mm > 0.0 {
             self.weigh(BEHIND, Distrust::Behind(found.fit.behind_mm));
@@ -396,10 +399,10 @@ mod tests {
     #[test]
     fn poses_of_a_model_of_no_knees_size_are_doubtful_for_that_before_all_else() {
         let mut found = turned(0.0, 0.1);
-        (found.fit.behind_mm, found.fit.no_knee_mm) = (300.0, 7.9);
+        (found.fit.behind_mm, found.fit.implausible_width_mm) = (300.0, 7.9);
         let mut trust = Trust::default();
         trust.weigh_fit(&found, &TrustLimits::USUAL, &Usual::default());
-        assert_eq!(trust.distrust, Some(Distrust::NoKnee(7.9)));
+        assert_eq!(trust.distrust, Some(Distrust::ImplausibleSize(7.9)));
     }
 
     #[test]

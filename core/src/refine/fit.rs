@@ -35,7 +35,7 @@ pub struct Fit {
     /// the calibration is of other frames or the model in another unit.
     pub behind_mm: f64,
     /// How wide the model is, mm, where that is no size of a knee's component, as of a file in another unit; 0 of others.
-    pub no_knee_mm: f64,
+    pub implausible_width_mm: f64,
 }
 
 impl Fit {
@@ -80,7 +80,7 @@ pub(super) struct FitSums {
     beyond: f64,
     views: f64,
     behind_mm: f64,
-    no_knee_mm: f64,
+    implausible_width_mm: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -123,7 +123,7 @@ impl FitSums {
     pub(super) fn add_place(&mut self, model: &Model<'_>, camera: &Camera, pose: &Pose) {
         let bounds = model.bounds();
         if !has_knee_size(&bounds) {
-            self.no_knee_mm = 2.0 * bounds.radius;
+            self.implausible_width_mm = 2.0 * bounds.radius;
         }
         let middle = pose.transform(&bounds.centre);
         self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
@@ -166,7 +166,7 @@ impl FitSums {
             },
             size_px: sqrt(part(self.area, self.views)),
             behind_mm: self.behind_mm,
-            no_knee_mm: self.no_knee_mm,
+            implausible_width_mm: self.implausible_width_mm,
         }
     }
 }

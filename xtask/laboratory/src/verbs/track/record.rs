@@ -46,8 +46,8 @@ impl Record for FramePose {
         numbers.extend([fit.size_px, fit.behind_mm, self.misfit_px, contrast.step]);
         numbers.extend([contrast.strength, contrast.known]);
         numbers.extend(self.film_steps.iter().flatten());
-        if fit.no_knee_mm > 0.0 {
-            numbers.push(fit.no_knee_mm);
+        if fit.implausible_width_mm > 0.0 {
+            numbers.push(fit.implausible_width_mm);
         }
         numbers
     }
@@ -88,14 +88,14 @@ impl Record for FramePose {
             apart_px: (!apart.is_nan()).then_some(apart),
             size_px,
             behind_mm,
-            no_knee_mm: 0.0,
+            implausible_width_mm: 0.0,
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
         let film_steps: [[f64; 6]; 2] = [reader.some()?, reader.some()?];
         // Written of such models alone.
         if !reader.0.is_empty() {
-            fit.no_knee_mm = reader.one()?;
+            fit.implausible_width_mm = reader.one()?;
         }
         reader.0.is_empty().then_some(Self {
             pose,
