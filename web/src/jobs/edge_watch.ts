@@ -4,12 +4,12 @@ import { currentPlace } from '../document/store';
 import { type Candidate, cellOf, chosenCandidate } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
 import { poseKey } from '../results/keys';
-import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { EdgeFacts } from '../workers/protocol/by_hand';
 import { poseArray } from '../workers/protocol/pose_array';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameOf, onFrameInput } from './from_here';
+import { Pause } from './pause';
 import type { Services } from './services';
 
 interface Asked {
@@ -28,8 +28,7 @@ export class EdgeWatch {
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   /** Without facts where the frame could not be asked. */
   readonly #read = new WeakMap<Candidate, { readonly key: string; readonly facts: EdgeFacts | null }>();
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #pauseIsOver: () => void = () => undefined;
+  readonly #pause = new Pause();
   #busy = false;
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -44,11 +43,9 @@ export class EdgeWatch {
   }
 
   #consider(): void {
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     if (this.#busy || !this.#find()) return;
-    this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => void this.#next(), EDGES_REST);
+    this.#pause.before(EDGES_REST, () => void this.#next());
   }
 
   #find(): Asked | null {
@@ -77,7 +74,6 @@ export class EdgeWatch {
 
   async #next(): Promise<void> {
     const asked = this.#find();
-    this.#pauseIsOver();
     if (!asked) return;
     this.#busy = true;
     const { place, candidate, key } = asked;

@@ -11,12 +11,12 @@ import { indexOfFrame } from '../document/frame_index';
 import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
-import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { Corrected, FilmFacts, FilmProtocol, FollowedProfiles, ReadProfiles } from '../workers/protocol/film';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { type Beside, ReadBeside } from './film_beside';
 import { onFrameInput } from './from_here';
+import { Pause } from './pause';
 import { sentenceOf, type Services } from './services';
 
 /** How long the document rests before its frames are asked, ms: while a hand moves nothing is worth reading. */
@@ -51,8 +51,7 @@ export class FilmReader {
   #asked: string | null = null;
   /** Constants that somebody stated, while they are not taken. */
   #tried: string | null = null;
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #pauseIsOver: () => void = () => undefined;
+  readonly #pause = new Pause();
   #busy = false;
   #waiting: (() => void)[] = [];
 
@@ -88,8 +87,7 @@ export class FilmReader {
   async learnAgain(asked: ReadonlyMap<ComponentName, Beside>, signal: AbortSignal): Promise<boolean> {
     await this.ready();
     this.#busy = true;
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     try {
       const { stated } = this.#services.store.doc.film;
       const followed = this.#followed(asked);
@@ -125,14 +123,12 @@ export class FilmReader {
   }
 
   #consider(): void {
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     this.#beside.keepTo(this.#services.store.doc, (component) => this.#middleOf(component));
     if (this.#busy || this.#adopt()) return;
     const task = this.#task();
     if (!task) return void this.#waiting.splice(0).forEach((go) => go());
-    this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => void this.#run(), FILM_REST);
+    this.#pause.before(FILM_REST, () => void this.#run());
   }
 
   /** A film from a session, or from before a step back, was told by the poses that are there with it. */
@@ -249,7 +245,6 @@ export class FilmReader {
   }
 
   async #run(): Promise<void> {
-    this.#pauseIsOver();
     const task = this.#task();
     if (!task) return;
     this.#busy = true;

@@ -5,10 +5,10 @@ import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
 import { type Cell, cellOf, chosenCandidate, type Posed, type Result, type Verdict } from '../document/types';
 import { cameraOf } from '../results/keys';
-import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameOf, onFrameInput } from './from_here';
+import { Pause } from './pause';
 import { flatten } from './poser';
 import type { Services } from './services';
 
@@ -29,8 +29,7 @@ export class HandJudge {
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   /** Nothing could be held against these; with the outline they had. */
   readonly #untold = new WeakMap<Posed, Cell['outline']>();
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #pauseIsOver: () => void = () => undefined;
+  readonly #pause = new Pause();
   #busy = false;
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -40,12 +39,10 @@ export class HandJudge {
   }
 
   #consider(): void {
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     const task = this.#busy ? null : this.#find();
     if (!task) return;
-    this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => void this.#next(), isOfFile(task.cell.result) ? 0 : HAND_REST);
+    this.#pause.before(isOfFile(task.cell.result) ? 0 : HAND_REST, () => void this.#next());
   }
 
   #find(): Task | null {
@@ -68,7 +65,6 @@ export class HandJudge {
 
   async #next(): Promise<void> {
     const task = this.#find();
-    this.#pauseIsOver();
     if (!task) return;
     this.#busy = true;
     const { place, cell } = task;

@@ -1,10 +1,10 @@
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import type { Outline } from '../document/types';
 import type { ComponentName } from '../terms/component';
-import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { LandscapeFacts } from '../workers/protocol/by_hand';
 import { cameraOf, poseKey } from '../results/keys';
+import { Pause } from './pause';
 import { flatten } from './poser';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { MatchInput } from '../workers/protocol/match';
@@ -23,8 +23,7 @@ export class Landscapes {
   readonly #store: Store;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #scored = new Map<Outline, Scored>();
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #pauseIsOver: () => void = () => undefined;
+  readonly #pause = new Pause();
   #busy = false;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -45,13 +44,11 @@ export class Landscapes {
   }
 
   #consider(): void {
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     const asked = this.#asked();
     if (this.#busy || !asked || this.#store.ui.seeing.picture !== 'landscape') return;
     if (this.#scored.get(asked.outline)?.key === asked.key) return;
-    this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => void this.#score(asked), REST);
+    this.#pause.before(REST, () => void this.#score(asked));
   }
 
   #asked(): { outline: Outline; component: ComponentName; key: string; input: MatchInput } | null {
@@ -69,7 +66,6 @@ export class Landscapes {
 
   async #score({ outline, key, input }: { outline: Outline; key: string; input: MatchInput }): Promise<void> {
     this.#busy = true;
-    this.#pauseIsOver();
     try {
       this.#scored.set(outline, { key, facts: await this.#worker.call('landscape', input) });
     } catch (error) {

@@ -6,12 +6,12 @@ import { isOnEdges } from '../document/laid_by';
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Posed, type Result } from '../document/types';
 import type { ComponentName } from '../terms/component';
-import { work } from '../workers/activity';
 import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
 import { cameraOf, poseKey, poseKeys } from '../results/keys';
 import { PROGRAM } from '../terms/program';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Refined } from '../workers/protocol/match';
+import { Pause } from './pause';
 import { sentenceOf } from './services';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
@@ -79,8 +79,7 @@ export class Poser {
   #changedAt = -Infinity;
   /** When the pose of an outline was last asked for. */
   #askedAt = -Infinity;
-  #timer: ReturnType<typeof setTimeout> | undefined;
-  #pauseIsOver: () => void = () => undefined;
+  readonly #pause = new Pause();
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#store = store;
@@ -111,15 +110,13 @@ export class Poser {
   }
 
   #next(): void {
-    clearTimeout(this.#timer);
-    this.#pauseIsOver();
+    this.#pause.end();
     if (this.#busy || this.#adopt()) return;
     const task = this.#find('match') ?? this.#find('refine');
     if (!task) return;
     const rest = this.#restBefore(task);
     if (rest <= 0) return void this.#run(task);
-    this.#pauseIsOver = work.begin();
-    this.#timer = setTimeout(() => this.#next(), rest);
+    this.#pause.before(rest, () => this.#next());
   }
 
   /** How long to wait before a task, ms. */
