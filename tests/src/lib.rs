@@ -125,6 +125,16 @@ pub fn camera() -> Camera {
     Camera::from_principal_distance(1024, 1024, 1200.0, 0.373, [0.0, 0.0]).expect("valid")
 }
 
+/// Where the built-in femur stands in front of it, seen from a little beside.
+pub const SEEN_FEMUR: EulerPose = EulerPose {
+    x_mm: 10.0,
+    y_mm: 5.0,
+    z_mm: -1084.0,
+    z_rot_deg: 20.0,
+    x_rot_deg: 3.0,
+    y_rot_deg: -4.0,
+};
+
 /// The README's example, compiled as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]

@@ -20,6 +20,8 @@ pub struct OutlineReading {
     pub row: f64,
     /// Outward unit normal, to the right and downwards.
     pub normal: [f64; 2],
+    /// Arc length of the outline that it stands for, pixels: where one pixel of several is read, theirs too.
+    pub length: f64,
     /// How far beyond the model's outline what was seen has its own, pixels. Against a film that is known this is the distance from
     /// where that film would show the outline.
     pub seen: NormalReading,
@@ -50,6 +52,7 @@ pub fn outline_readings(
     mut visit: impl FnMut(&OutlineReading),
 ) -> Result<Fit, RefineError> {
     observe(model, &[view], &Refined::at(*pose), memory, |looked| {
+        let every = looked.stage.every.unwrap_or(1) as f64;
         for sample in looked.border {
             let seen = match sample.residual() {
                 Residual::None => continue,
@@ -62,6 +65,7 @@ pub fn outline_readings(
                 column,
                 row,
                 normal: sample.normal().map(f64::from),
+                length: every * f64::from(sample.weight),
                 seen,
             });
         }

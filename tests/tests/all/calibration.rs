@@ -5,22 +5,13 @@ use fluoropose::finder::{Doubt, Limits, Verdict, judge_fit};
 use fluoropose::image::mask::Mask;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::mesh::Model;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, fit_at, refine};
 use fluoropose_phantom::film::{Placed, silhouette};
-use fluoropose_tests::{femur, surface};
+use fluoropose_tests::{SEEN_FEMUR, femur, surface};
 
 const DISTANCE: f64 = 1198.0;
 const PITCH: f64 = 0.373;
-const TRUE: EulerPose = EulerPose {
-    x_mm: 10.0,
-    y_mm: 5.0,
-    z_mm: -1084.0,
-    z_rot_deg: 20.0,
-    x_rot_deg: 3.0,
-    y_rot_deg: -4.0,
-};
-
 fn camera(pitch: f64) -> Camera {
     Camera::from_principal_distance(1024, 1024, DISTANCE, pitch, [0.0; 2]).expect("possible")
 }
@@ -37,12 +28,13 @@ fn judged(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>, start: &Pose
 #[test]
 fn a_fit_behind_the_detector_is_doubtful() {
     let femur = femur();
-    let words = silhouette(&camera(PITCH), &Placed::at_rest(&femur, TRUE.into())).expect("drawn");
+    let words =
+        silhouette(&camera(PITCH), &Placed::at_rest(&femur, SEEN_FEMUR.into())).expect("drawn");
     let mask = Mask::new(&words, 1024, 1024).expect("fits");
     let (seen, model) = (Silhouette::from(&mask), surface(femur));
     let model = model.as_model();
 
-    let truth = Pose::from(TRUE);
+    let truth = Pose::from(SEEN_FEMUR);
     assert_eq!(judged(&model, &camera(PITCH), seen, &truth), Verdict::Good);
 
     // Frames of 2048 pixels a side have half the pitch: the outline fits as well at twice the depth.

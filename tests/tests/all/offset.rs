@@ -11,16 +11,7 @@ use fluoropose::refine::{
 };
 use fluoropose_laboratory::files::MaskBuffer;
 use fluoropose_phantom::film::{Placed, silhouette};
-use fluoropose_tests::{camera, femur, surface};
-
-const TRUE: EulerPose = EulerPose {
-    x_mm: 10.0,
-    y_mm: 5.0,
-    z_mm: -1084.0,
-    z_rot_deg: 20.0,
-    x_rot_deg: 3.0,
-    y_rot_deg: -4.0,
-};
+use fluoropose_tests::{SEEN_FEMUR, camera, femur, surface};
 
 /// The same with all pixels that touch it, as a network might see it.
 fn widened(mask: &Mask<'_>) -> MaskBuffer {
@@ -40,19 +31,19 @@ fn widened(mask: &Mask<'_>) -> MaskBuffer {
 fn depth(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 2] {
     let (view, mut buffers) = ([CameraView::only(camera, seen)], RefineBuffers::default());
     let mut memory = buffers.borrow(model, camera);
-    let (truth, options) = (Pose::from(TRUE), RefineOptions::default());
+    let (truth, options) = (Pose::from(SEEN_FEMUR), RefineOptions::default());
     let refined = refine(model, &view, &truth, options, &mut memory).expect("refined");
     let told = assess(model, &view, &refined, &mut memory).expect("assessed");
     let covariance = told.covariance.expect("determined");
     let Deviations { z_mm, .. } = covariance.deviations(&refined.pose, &model.bounds().centre);
-    [EulerPose::from(refined.pose).z_mm - TRUE.z_mm, z_mm]
+    [EulerPose::from(refined.pose).z_mm - SEEN_FEMUR.z_mm, z_mm]
 }
 
 #[test]
 fn a_common_offset_is_found_taken_away_and_told() {
     let (femur, camera) = (femur(), camera());
-    let truth = Pose::from(TRUE);
-    let words = silhouette(&camera, &Placed::at_rest(&femur, TRUE.into())).expect("drawn");
+    let truth = Pose::from(SEEN_FEMUR);
+    let words = silhouette(&camera, &Placed::at_rest(&femur, SEEN_FEMUR.into())).expect("drawn");
     let mask = Mask::new(&words, camera.width(), camera.height()).expect("fits");
     let wide = widened(&mask);
     let (wide, model) = (wide.mask(), surface(femur));

@@ -3,26 +3,20 @@
 use fluoropose::image::mask::Mask;
 use fluoropose::image::profile::NormalReading;
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{CameraView, OutlineReading, RefineBuffers, fit_at, outline_readings};
+use fluoropose::pose::Pose;
+use fluoropose::refine::{
+    CameraView, OutlineReading, RefineBuffers, fit_at, outline_readings, outline_samples,
+};
 use fluoropose_laboratory::files::MaskBuffer;
 use fluoropose_phantom::film::{Placed, silhouette};
-use fluoropose_tests::{camera, femur, surface};
+use fluoropose_tests::{SEEN_FEMUR, camera, femur, surface};
 
-const TRUE: EulerPose = EulerPose {
-    x_mm: 10.0,
-    y_mm: 5.0,
-    z_mm: -1084.0,
-    z_rot_deg: 20.0,
-    x_rot_deg: 3.0,
-    y_rot_deg: -4.0,
-};
 const RIGHT_PX: f64 = 2.0;
 
 #[test]
 fn a_model_that_was_moved_is_off_by_that_much_along_each_normal() {
     let (femur, camera) = (femur(), camera());
-    let words = silhouette(&camera, &Placed::at_rest(&femur, TRUE.into())).expect("drawn");
+    let words = silhouette(&camera, &Placed::at_rest(&femur, SEEN_FEMUR.into())).expect("drawn");
     let (width, height) = (camera.width(), camera.height());
     let mask = Mask::new(&words, width, height).expect("fits");
     let mut hidden = MaskBuffer::new(width, height).expect("a mask");
@@ -37,8 +31,8 @@ fn a_model_that_was_moved_is_off_by_that_much_along_each_normal() {
     let model = surface(femur);
     let model = model.as_model();
 
-    let mut moved = Pose::from(TRUE);
-    moved.translation[0] += RIGHT_PX * -TRUE.z_mm / camera.focal()[0];
+    let mut moved = Pose::from(SEEN_FEMUR);
+    moved.translation[0] += RIGHT_PX * -SEEN_FEMUR.z_mm / camera.focal()[0];
     let mut buffers = RefineBuffers::default();
     let mut memory = buffers.borrow(&model, &camera);
     let view = CameraView::only(&camera, seen);
@@ -50,6 +44,13 @@ fn a_model_that_was_moved_is_off_by_that_much_along_each_normal() {
         fit_at(&model, &[view], &moved, &mut memory).expect("seen")
     );
 
+    let mut whole = 0.0;
+    outline_samples(&model, &camera, &moved, &mut memory, |one| {
+        whole += one.length
+    })
+    .expect("drawn");
+    let length: f64 = readings.iter().map(|one| one.length).sum();
+    assert!((length / whole - 1.0).abs() < 0.02, "{length} of {whole}");
     let mut shifts = Vec::new();
     for one in &readings {
         let above = one.row < middle_row as f64;

@@ -20,9 +20,9 @@ pub struct EdgeReadings {
 
 #[wasm_bindgen]
 impl EdgeReadings {
-    /// Six numbers for each piece of the outline: column and row, pixels; its outward normal, to the right and downwards; how far
-    /// beyond it the frame's edge lies, pixels, NaN where there is none; and 1 where the outline is met, 0 where it is not, NaN
-    /// where nothing can be told.
+    /// Seven numbers for each piece of the outline: column and row, pixels; its outward normal, to the right and downwards; its
+    /// length, pixels; how far beyond it the frame's edge lies, pixels, NaN where there is none; and 1 where the outline is met,
+    /// 0 where it is not, NaN where nothing can be told.
     #[wasm_bindgen(getter)]
     pub fn numbers(&self) -> Vec<f32> {
         self.numbers.clone()
@@ -78,7 +78,7 @@ impl Matcher {
     }
 }
 
-fn numbers_of(one: &OutlineReading) -> [f32; 6] {
+fn numbers_of(one: &OutlineReading) -> [f32; 7] {
     let beyond_px = match one.seen {
         NormalReading::At(px) => px,
         NormalReading::Nothing | NormalReading::Unknown => f64::NAN,
@@ -87,5 +87,5 @@ fn numbers_of(one: &OutlineReading) -> [f32; 6] {
         .is_met()
         .map_or(f64::NAN, |met| f64::from(u8::from(met)));
     let [right, down] = one.normal;
-    [one.column, one.row, right, down, beyond_px, met].map(|number| number as f32)
+    [one.column, one.row, right, down, one.length, beyond_px, met].map(|number| number as f32)
 }

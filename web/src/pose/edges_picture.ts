@@ -5,8 +5,8 @@ import { EDGE_NUMBERS, type EdgeFacts } from '../workers/protocol/by_hand';
 
 /** Edges are drawn so many times as far off the outline as they lie. */
 export const TIMES = 5;
-/** Of a piece of the outline, frame px: they reach into each other where every fifth pixel is read. */
-const PIECE = 7;
+/** Pieces are drawn so many times as long as they are, to reach into each other: those that are read do not stand evenly. */
+const LONGER = 1.4;
 /** Edges farther off than this may leave the picture, frame px: few are. */
 const FARTHEST = 2;
 const OUTLINE_COLOUR = '#8b9096';
@@ -14,6 +14,8 @@ const OUTLINE_COLOUR = '#8b9096';
 interface Piece {
   readonly at: readonly [number, number];
   readonly normal: readonly [number, number];
+  /** Half of it, frame px. */
+  readonly half: number;
   /** Frame px; NaN where there is no edge. */
   readonly beyond: number;
   /** 1, 0, or NaN where nothing can be told. */
@@ -29,11 +31,11 @@ export function paintEdges(context: CanvasRenderingContext2D, { numbers }: EdgeF
   const line = (colour: string, thick: number, chosen: (piece: Piece) => boolean, off: (piece: Piece) => number) => {
     context.beginPath();
     for (const piece of pieces.filter(chosen)) {
-      const { normal } = piece;
+      const { normal, half } = piece;
       const far = off(piece);
       const middle = [piece.at[0] + far * normal[0], piece.at[1] + far * normal[1]] as const;
-      context.moveTo(...place(middle[0] - (normal[1] * PIECE) / 2, middle[1] + (normal[0] * PIECE) / 2));
-      context.lineTo(...place(middle[0] + (normal[1] * PIECE) / 2, middle[1] - (normal[0] * PIECE) / 2));
+      context.moveTo(...place(middle[0] - normal[1] * half, middle[1] + normal[0] * half));
+      context.lineTo(...place(middle[0] + normal[1] * half, middle[1] - normal[0] * half));
     }
     context.strokeStyle = colour;
     context.lineWidth = thick;
@@ -46,8 +48,8 @@ export function paintEdges(context: CanvasRenderingContext2D, { numbers }: EdgeF
 
 function piecesOf(numbers: Float32Array): Piece[] {
   return Array.from({ length: numbers.length / EDGE_NUMBERS }, (_, piece) => {
-    const [column = 0, row = 0, right = 0, down = 0, beyond = NaN, met = NaN] = numbers.subarray(EDGE_NUMBERS * piece);
-    return { at: [column, row], normal: [right, down], beyond, met } as const;
+    const [column = 0, row = 0, right = 0, down = 0, length = 0, beyond = NaN, met = NaN] = numbers.subarray(EDGE_NUMBERS * piece);
+    return { at: [column, row], normal: [right, down], half: (LONGER * length) / 2, beyond, met } as const;
   });
 }
 

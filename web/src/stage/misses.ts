@@ -5,9 +5,6 @@ import { HALO } from './drawing';
 /** For errors and misfits alone, as `--error` of the theme. */
 export const MISFIT_COLOUR = '#ff6b5e';
 
-/** Against a film every fifth pixel of the outline is read: a piece is drawn so long that none is left between two, px. */
-const PIECE = 5;
-
 /** Pieces of the outline that lie on no edge, in frame coordinates. */
 const paths = new WeakMap<EdgeFacts, Path2D>();
 
@@ -29,9 +26,9 @@ export function drawMisses(context: CanvasRenderingContext2D, view: Viewport, fa
 function misses({ numbers }: EdgeFacts): Path2D {
   const path = new Path2D();
   for (let at = 0; at < numbers.length; at += EDGE_NUMBERS) {
-    const [column = 0, row = 0, right = 0, down = 0, , met] = numbers.subarray(at, at + EDGE_NUMBERS);
+    const [column = 0, row = 0, right = 0, down = 0, length = 0, , met] = numbers.subarray(at, at + EDGE_NUMBERS);
     if (met !== 0) continue;
-    const [across, along] = [(-down * PIECE) / 2, (right * PIECE) / 2];
+    const [across, along] = [(-down * length) / 2, (right * length) / 2];
     path.moveTo(column - across, row - along);
     path.lineTo(column + across, row + along);
   }

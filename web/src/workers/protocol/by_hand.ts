@@ -40,7 +40,7 @@ export interface FitFacts {
 
 /** Where the frame's edges lie along a model's outline, as `EdgeReadings` of the core has it. */
 export interface EdgeFacts {
-  /** `EDGE_NUMBERS` for each piece of the outline: column, row, the outward normal, how far beyond it the edge lies (px, NaN where there is none), met (1 or 0, NaN where nothing can be told). */
+  /** `EDGE_NUMBERS` for each piece of the outline: column, row, the outward normal, its length (px), how far beyond it the edge lies (px, NaN where there is none), met (1 or 0, NaN where nothing can be told). */
   readonly numbers: Float32Array<ArrayBuffer>;
   /** Part of the outline that is met, of what can be told. */
   readonly met: number;
@@ -50,7 +50,7 @@ export interface EdgeFacts {
   readonly residual: number;
 }
 
-export const EDGE_NUMBERS = 6;
+export const EDGE_NUMBERS = 7;
 
 /** A grid of views: the rotation of the first, degrees, the step, and how many. */
 export interface GridAxis {
