@@ -36,6 +36,21 @@ pageTest('the joint', async (page, t) => {
     const wanted = ['flexion_deg', 'abduction_deg', 'internal_rotation_deg'].map((name) => /** @type {Record<string, number>} */ (truth[0])[name] ?? NaN);
     const isNear = (/** @type {number[]} */ now) => now.length === 3 && now.every((angle, at) => Math.abs(angle - (wanted[at] ?? NaN)) < 0.011);
     await until(read, isNear, `angles of ${wanted}`);
+    const doubt = angles.getByText('Of a doubtful pose.');
+    assert.equal(await doubt.count(), 0);
+    // A tibia that is moved off its edges, while the femur is on view.
+    await page.getByRole('radio', { name: 'Tibia' }).click();
+    await page.getByRole('application', { name: /outline$/ }).focus();
+    await page.keyboard.press('a');
+    for (let key = 0; key < 4; key++) await page.keyboard.press('ArrowRight');
+    await page.getByRole('button', { name: 'Done' }).click();
+    await page.getByRole('radio', { name: 'Femur' }).click();
+    await doubt.waitFor();
+    await page.getByRole('application', { name: /outline$/ }).focus();
+    for (let key = 0; key < 4; key++) await page.keyboard.press('Control+z');
+    await doubt.waitFor({ state: 'detached' });
+    await until(read, isNear, 'the angles of before');
+    await page.getByRole('application', { name: /outline$/ }).focus();
     for (let frame = 1; frame < GAP; frame++) await page.keyboard.press('f');
     await until(() => angles.count(), (count) => count === 0, 'no angles where the tibia has no pose');
     for (let frame = 1; frame < GAP; frame++) await page.keyboard.press('d');

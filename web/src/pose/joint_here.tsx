@@ -1,27 +1,35 @@
 import { useApp } from '../commands/app';
 import { currentFrame, type State } from '../document/store';
-import { jointAskedIn } from '../results/motion';
+import { jointAskedIn, trustOf } from '../results/motion';
 import { formatNumber, plusMinus } from '../texts/numbers';
 import { texts } from '../texts/texts';
 
 const ANGLES = ['flexion', 'abduction', 'internal_rotation'] as const;
 
-/** The joint's angles in the frame on view. Their place is kept while they are worked out. */
+/** The joint's angles in the frame on view, and whether the pose of either component is doubtful. Their place is kept while they are worked out. */
 export function JointHere({ state }: { state: State }) {
   const { joint } = useApp();
   const frame = currentFrame(state);
   if (!frame || !jointAskedIn(state.history.present, frame.id)) return null;
   const row = joint.rowOf(frame.id);
   const words = texts.panel.joint;
+  const { doubtful } = trustOf(state.history.present, frame.id);
   return (
-    <dl class="joint-angles" aria-label={words.region}>
-      {ANGLES.map((name) => (
-        <div key={name}>
-          <dt>{words.angles[name]}</dt>
-          <dd>{row ? inWords(row.get(`${name}_deg`), row.get(`sd_${name}_deg`)) : '–'}</dd>
-        </div>
-      ))}
-    </dl>
+    <div class="joint-angles" role="group" aria-label={words.region}>
+      <dl>
+        {ANGLES.map((name) => (
+          <div key={name}>
+            <dt>{words.angles[name]}</dt>
+            <dd>{row ? inWords(row.get(`${name}_deg`), row.get(`sd_${name}_deg`)) : '–'}</dd>
+          </div>
+        ))}
+      </dl>
+      {doubtful && (
+        <p class="card-note" title={words.doubtTitle}>
+          {words.doubt}
+        </p>
+      )}
+    </div>
   );
 }
 

@@ -107,7 +107,8 @@ export function jointTrusts(doc: Doc): readonly JointTrust[] {
   return known;
 }
 
-function trustOf(doc: Doc, frameId: string): JointTrust {
+/** Of one frame, by its id. */
+export function trustOf(doc: Doc, frameId: string): JointTrust {
   const cells = COMPONENT_NAMES.map((component) => ({ cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
   const checks = cells.map(({ cell, mark }) => ({ isDoubtful: doubtOf(cell) !== null, isChecked: checkState(cell, mark) === 'yes' }));
   const doubtful = checks.some(({ isDoubtful, isChecked }) => isDoubtful && !isChecked);

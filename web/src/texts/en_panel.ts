@@ -83,6 +83,8 @@ export const panel = {
   joint: {
     region: 'Joint angles in this frame',
     angles: { flexion: 'Flexion', abduction: 'Abduction', internal_rotation: 'Internal' },
+    doubt: 'Of a doubtful pose.',
+    doubtTitle: 'The pose of the femur or of the tibia is doubtful in this frame',
   },
 
   unmatched: {

@@ -43,7 +43,7 @@ export const seeing = {
     met: ({ met, known, residual }: { met: number; known: number; residual: number }, times: number) =>
       known === 0
         ? 'Nothing is seen along the outline.'
-        : `${Math.round(100 * met)} % of the outline lies on edges, ${residual.toFixed(2)} px off. They are drawn ${times} times as far.`,
+        : `${Math.round(100 * met)} % of ${seen(known)} lies on edges, ${residual.toFixed(2)} px off. They are drawn ${times} times as far.`,
     reading: 'Reading the frame’s edges ...',
     none: 'A pose has its edges here.',
   },
@@ -59,3 +59,8 @@ export const seeing = {
     large: 'Beside the frame',
   },
 };
+
+/** What nothing hides. */
+function seen(known: number): string {
+  return known > 0.95 ? 'the outline' : `the ${Math.round(100 * known)} % of the outline that can be seen`;
+}

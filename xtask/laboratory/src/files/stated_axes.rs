@@ -7,7 +7,7 @@ use fluoropose::mesh::symmetry::symmetry_planes;
 
 use super::Role;
 
-/// Cosine of 45 degrees: no component is read farther off by its shape without having a shape that nobody knows.
+/// Cosine of the angle up to which two superiors are alike, 45 degrees: half of the way to the next axis of a file.
 const ALIKE: f64 = core::f64::consts::FRAC_1_SQRT_2;
 
 /// What there is to say where stated axes point up otherwise than the shape does, a sentence without its full stop: poses of a part that is
@@ -20,7 +20,7 @@ pub(super) fn axes_doubt(model: &OwnedModel, role: Role, words: &str) -> Option<
     let up = |axes: &AnatomicalAxes| axes.model_from_field.rotation.map(|row| row[1]);
     (dot(&up(&stated), &up(&told)) < ALIKE).then(|| {
         format!(
-            "the axes \"{words}\" that the study states have another superior than its shape speaks for ({told}): where that is right, as it is of most components, poses are upside down, and look right"
+            "the axes \"{words}\" that the study states have another superior than its shape speaks for ({told}). Where the shape is right, as it is for most components, poses lie upside down and look right"
         )
     })
 }
