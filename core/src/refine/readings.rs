@@ -52,7 +52,6 @@ pub fn outline_readings(
     mut visit: impl FnMut(&OutlineReading),
 ) -> Result<Fit, RefineError> {
     observe(model, &[view], &Refined::at(*pose), memory, |looked| {
-        let every = looked.stage.every.unwrap_or(1) as f64;
         for sample in looked.border {
             let seen = match sample.residual() {
                 Residual::None => continue,
@@ -65,7 +64,7 @@ pub fn outline_readings(
                 column,
                 row,
                 normal: sample.normal().map(f64::from),
-                length: every * f64::from(sample.weight),
+                length: sample.weight.into(),
                 seen,
             });
         }

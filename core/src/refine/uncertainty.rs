@@ -114,7 +114,7 @@ pub fn fit_at(
 pub(super) struct Observed<'o> {
     view: &'o CameraView<'o>,
     motion: Motion,
-    pub(super) stage: Stage,
+    stage: Stage,
     pub(super) border: &'o [BorderPixel],
     lines: &'o [PathLine],
     /// What the model was drawn in, not needed any more.

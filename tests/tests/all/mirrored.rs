@@ -17,7 +17,7 @@ use fluoropose_phantom::implant::{Side, Size};
 use fluoropose_tests::{camera, femur, surface, tibia};
 
 /// The tray as the demonstration's first frame has it: 4 degrees from its mirror image.
-const TRUE: EulerPose = EulerPose {
+pub(crate) const TRUE: EulerPose = EulerPose {
     x_mm: -6.0,
     y_mm: -24.0,
     z_mm: -1084.0,
@@ -31,7 +31,7 @@ fn film() -> FilmModel {
     FilmModel::certain(FilmConstants::plain(1.0 / 38.0, 0.7), 0.2)
 }
 
-fn grey() -> Vec<u8> {
+pub(crate) fn grey() -> Vec<u8> {
     let (femur, tibia, camera) = (femur(), tibia(), camera());
     let width_mm = Size::default().width_mm();
     let position = knee(TRUE, DEEPEST_DEG / 2.0, Side::Left, &femur, width_mm);
@@ -45,7 +45,7 @@ fn grey() -> Vec<u8> {
     expose(&scene, &Physics::default(), 1, 0).expect("a film")
 }
 
-fn shown<'f>(frame: &'f Frame<'f, u8>) -> ImageTarget<'f> {
+pub(crate) fn shown<'f>(frame: &'f Frame<'f, u8>) -> ImageTarget<'f> {
     ImageTarget {
         frame,
         unknown: None,

@@ -1,5 +1,6 @@
 //! What was seen beside the model's outline, piece by piece: a model that was moved tells by how much, everywhere.
 
+use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::Mask;
 use fluoropose::image::profile::NormalReading;
 use fluoropose::image::silhouette::Silhouette;
@@ -9,7 +10,9 @@ use fluoropose::refine::{
 };
 use fluoropose_laboratory::files::MaskBuffer;
 use fluoropose_phantom::film::{Placed, silhouette};
-use fluoropose_tests::{SEEN_FEMUR, camera, femur, surface};
+use fluoropose_tests::{SEEN_FEMUR, camera, femur, surface, tibia};
+
+use crate::mirrored;
 
 const RIGHT_PX: f64 = 2.0;
 
@@ -72,4 +75,33 @@ fn a_model_that_was_moved_is_off_by_that_much_along_each_normal() {
     assert_eq!(shifts.iter().filter(off).count(), 0, "{shifts:?}");
     let mean = shifts.iter().sum::<f64>() / shifts.len() as f64;
     assert!((mean - RIGHT_PX).abs() < 0.15, "{mean}");
+}
+
+#[test]
+fn a_tray_at_its_pose_lies_on_the_edges_of_its_film_and_every_piece_stands_for_what_is_beside_it() {
+    let (pixels, camera, model) = (mirrored::grey(), camera(), surface(tibia()));
+    let model = model.as_model();
+    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let frame = frame.expect("fits");
+    let view = CameraView::only(&camera, mirrored::shown(&frame));
+    let mut buffers = RefineBuffers::default();
+    let mut memory = buffers.borrow(&model, &camera);
+    let truth = Pose::from(mirrored::TRUE);
+    let mut whole = 0.0;
+    outline_samples(&model, &camera, &truth, &mut memory, |one| {
+        whole += one.length
+    })
+    .expect("drawn");
+    let (mut pieces, mut length) = (0, 0.0);
+    let fit = outline_readings(&model, view, &truth, &mut memory, |one| {
+        pieces += 1;
+        length += one.length;
+    });
+    let fit = fit.expect("seen");
+    assert!(fit.met > 0.9 && fit.residual_px < 0.5, "{fit:?}");
+    assert!(
+        f64::from(pieces) < whole / 3.0,
+        "{pieces} pieces of {whole} px"
+    );
+    assert!((length / whole - 1.0).abs() < 0.1, "{length} of {whole}");
 }
