@@ -21,6 +21,7 @@ pub mod condyles;
 pub mod course;
 #[cfg(test)]
 pub(crate) mod fake;
+pub mod flange;
 pub mod floating;
 pub mod group;
 pub mod impossible;

@@ -66,6 +66,15 @@ pageTest('the joint', async (page, t) => {
     await agrees(page, BY_GROOD_AND_SUNTAY, FRAMES, truth);
     await screenshot(page, 'joint');
   });
+  await step(page, t, 'asks whether it is the other knee where the femur is made for that', async () => {
+    const asked = page.getByLabel('Joint angles in this frame').getByText('Is it the other knee?');
+    const why = joint(page).getByText(/^The femoral component's flange is higher at its left half, .* stated as right: /);
+    assert.equal(await asked.count(), 0);
+    await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('right');
+    await Promise.all([asked.waitFor(), why.waitFor()]);
+    await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('left');
+    await Promise.all([asked.waitFor({ state: 'detached' }), why.waitFor({ state: 'detached' })]);
+  });
   await step(page, t, 'leads to a frame, and has a gap where a pose is missing', () => leads(page, truth));
   await step(page, t, 'goes on with the film that plays', async () => {
     const shownNow = () => page.getByRole('application', { name: /frame \d+ of 8/ }).getAttribute('aria-label');

@@ -1,5 +1,6 @@
 //! The joint's numbers, frame by frame, for curves and tables.
 
+use fluoropose::joint::flange::OtherSide;
 use fluoropose::joint::impossible::impossible;
 use fluoropose::joint::kinematics::{Side, joint_axes};
 use fluoropose::joint::numbers::{NUMBERS, Posed};
@@ -8,6 +9,7 @@ use fluoropose::joint::shared::{ERRORS, KnownTo};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
+use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
@@ -45,6 +47,15 @@ impl Part {
             return Ok([0.0; 3]);
         }
         Ok(self.mesh()?.bounds().centre)
+    }
+
+    /// Axes as a joint has them: what their signs are has been told or stated.
+    pub(crate) fn anatomical_axes(&self) -> AnatomicalAxes {
+        AnatomicalAxes {
+            model_from_field: self.axes,
+            front_is_known: true,
+            are_files_own: false,
+        }
     }
 
     fn mesh(&self) -> Result<Mesh<'_>, JsError> {
@@ -103,6 +114,20 @@ impl KneeJoint {
     #[wasm_bindgen(getter, js_name = hasPlate)]
     pub fn has_plate(&self) -> bool {
         !self.memory.is_empty()
+    }
+
+    /// What the femoral component's flange says of the side where it tells the other one: a sentence without its full stop.
+    ///
+    /// # Errors
+    /// The core's sentence about a mesh.
+    #[wasm_bindgen(js_name = otherSide)]
+    pub fn other_side(&self) -> Result<Option<String>, JsError> {
+        if self.femur.vertices.is_empty() {
+            return Ok(None);
+        }
+        let axes = self.femur.anatomical_axes();
+        let other = OtherSide::than(self.side, &self.femur.mesh()?, &axes);
+        Ok(other.map(|other| other.to_string()))
     }
 
     /// The names of all numbers that a frame gets, in their order.

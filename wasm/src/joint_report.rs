@@ -2,12 +2,11 @@
 
 use fluoropose::joint::JointFrame;
 use fluoropose::joint::numbers::{COLUMNS, NUMBERS};
-use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::Pose;
 use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, write};
 use wasm_bindgen::prelude::*;
 
-use crate::joint::{BORDER, KneeJoint, OUT, Part, SHOWN};
+use crate::joint::{BORDER, KneeJoint, OUT, SHOWN};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::from_numbers;
 
@@ -43,8 +42,12 @@ impl JointReport {
             film.plate_width_mm = joint.plate().width_mm;
         }
         let mut facts = Facts::default();
-        facts.set_axes("femoral", &axes_of(&knee.femur));
-        facts.set_axes("tibial", &axes_of(&knee.tibia));
+        facts.set_axes("femoral", &knee.femur.anatomical_axes());
+        facts.set_axes("tibial", &knee.tibia.anatomical_axes());
+        let other = knee.other_side()?;
+        facts
+            .remarks
+            .extend(other.map(|other| format!("Side: {other}.")));
         Ok(Self { film, facts })
     }
 
@@ -172,14 +175,6 @@ fn all_poses(numbers: &[f64]) -> Result<Vec<Option<Pose>>, JsError> {
         false => Ok(Some(Pose::from(from_numbers(numbers)?))),
     };
     poses.iter().map(pose).collect()
-}
-
-fn axes_of(part: &Part) -> AnatomicalAxes {
-    AnatomicalAxes {
-        model_from_field: part.axes,
-        front_is_known: true,
-        are_files_own: false,
-    }
 }
 
 /// Numbers and their standard deviations, NaN where these are not known. What comes after them follows from both.

@@ -128,13 +128,18 @@ fn perpendicular(axis: &Vector3) -> Vector3 {
     scale(&across, 1.0 / norm(&across))
 }
 
-/// How far a mesh reaches along an axis, mm.
+/// How wide a mesh is along an axis, mm.
 fn width(mesh: &Mesh<'_>, axis: &Vector3) -> f64 {
-    let along = mesh.vertices().iter().map(|v| dot(&v.map(f64::from), axis));
-    let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let (low, high) = reach(mesh, axis);
     high - low
+}
+
+/// From where to where a mesh reaches along an axis, mm.
+pub(crate) fn reach(mesh: &Mesh<'_>, axis: &Vector3) -> (f64, f64) {
+    let along = mesh.vertices().iter().map(|v| dot(&v.map(f64::from), axis));
+    along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
 }
 
 /// The axis or its opposite, so that its largest component is positive.

@@ -1,5 +1,6 @@
 //! Anatomical axes of whole implants, however their files turn them.
 
+use fluoropose::joint::flange::side_by_flange;
 use fluoropose::joint::kinematics::{Side, joint_angles, relative_pose};
 use fluoropose::mesh::anatomy::{
     AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape,
@@ -9,6 +10,7 @@ use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose_laboratory::files::read_model;
+use fluoropose_phantom::implant::{self, Parameters};
 use fluoropose_tests::{femur, study, surface, tibia, turned};
 
 fn axes(mesh: &Mesh<'_>, component: KneeComponent) -> AnatomicalAxes {
@@ -192,5 +194,53 @@ fn shapes_tell_real_components_apart() {
             let model = read_model(&folder.join(file)).expect("a model");
             is_told_from_the_other(&model, component, file);
         }
+    }
+}
+
+fn mirrored(model: &OwnedModel) -> OwnedModel {
+    let model = model.as_model();
+    let vertices = model.vertices().iter().flat_map(|&[x, y, z]| [-x, y, z]);
+    let triangles = model.triangles().iter().flat_map(|&[a, b, c]| [a, c, b]);
+    OwnedModel::new(vertices.collect(), triangles.collect()).expect("as valid as before")
+}
+
+fn told_side(model: &OwnedModel) -> Option<Side> {
+    let model = model.as_model();
+    side_by_flange(model.mesh(), &axes(model.mesh(), KneeComponent::Femur))
+}
+
+#[test]
+fn a_flange_tells_the_knee_that_its_component_is_made_for_however_its_file_turns_it() {
+    for (side, told) in [
+        (implant::Side::Left, Side::Left),
+        (implant::Side::Right, Side::Right),
+    ] {
+        let parameters = Parameters {
+            side,
+            ..Parameters::default()
+        };
+        let model = surface(implant::femur(&parameters).expect("usual"));
+        for by in permutations() {
+            assert_eq!(told_side(&turned(&model, &by)), Some(told), "{side}");
+        }
+    }
+}
+
+/// The first is that of a left knee. What the second one is of, its study does not know.
+#[test]
+fn flanges_of_real_components_tell_a_side_and_their_mirror_images_the_other() {
+    for (name, file, told) in [
+        ("left8", "KR_left_8_fem.stl", Side::Left),
+        ("film70", "femur.stl", Side::Right),
+    ] {
+        let Some(study) = study(name) else { return };
+        let folder = study.parent().expect("a folder");
+        let model = read_model(&folder.join(file)).expect("a model");
+        assert_eq!(told_side(&model), Some(told), "{name}");
+        let other = match told {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        };
+        assert_eq!(told_side(&mirrored(&model)), Some(other), "{name}");
     }
 }

@@ -65,6 +65,11 @@ export class JointReader {
     return new Map(this.#open.facts.columns.map((name, at) => [name, known.row[at] ?? NaN]));
   }
 
+  /** What the femur's flange says of the side of the body, where it tells the other one. */
+  get otherSide(): string | null {
+    return this.numbers.otherSide;
+  }
+
   /** Works the numbers of one frame out, if they are not known and nothing else is being worked out. */
   async lookAt(frameId: string): Promise<void> {
     await this.#lookAt(jointAskedIn(this.#services.store.doc, frameId));

@@ -1,6 +1,7 @@
 import { useApp } from '../commands/app';
 import { currentFrame, type State } from '../document/store';
 import { jointAskedIn, trustOf } from '../results/motion';
+import { asSentence } from '../texts/sentences';
 import { formatNumber, plusMinus } from '../texts/numbers';
 import { texts } from '../texts/texts';
 
@@ -27,6 +28,11 @@ export function JointHere({ state }: { state: State }) {
       {doubtful && (
         <p class="card-note" title={words.doubtTitle}>
           {words.doubt}
+        </p>
+      )}
+      {joint.otherSide !== null && (
+        <p class="card-note" title={asSentence(joint.otherSide)}>
+          {words.otherSide}
         </p>
       )}
     </div>

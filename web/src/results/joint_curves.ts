@@ -10,6 +10,8 @@ export interface JointNumbers {
   readonly hasPlate: boolean;
   /** The border of the tray's plate from above: anterior and medial place of each point, mm; empty where there is none. */
   readonly plate: Float64Array;
+  /** What the femur's flange says of the side of the body, where it tells the other one: a sentence without its full stop. */
+  readonly otherSide: string | null;
   /** By the frame's id, in the order of the columns, and what the core needs again behind them. */
   readonly of: ReadonlyMap<string, Float64Array>;
   /** By the frame's id: why no knee has one of its numbers. */
@@ -18,7 +20,7 @@ export interface JointNumbers {
   readonly waiting: number;
 }
 
-export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, plate: new Float64Array(), of: new Map(), impossible: new Map(), waiting: 0 };
+export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(), impossible: new Map(), waiting: 0 };
 
 /** The core's names of what a curve shows; of two, the medial one comes first. */
 export const CURVES: Readonly<Record<CurveName, { readonly columns: readonly string[]; readonly unit: '°' | 'mm' }>> = {

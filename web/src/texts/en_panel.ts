@@ -85,6 +85,7 @@ export const panel = {
     angles: { flexion: 'Flexion', abduction: 'Abduction', internal_rotation: 'Internal' },
     doubt: 'Of a doubtful pose.',
     doubtTitle: 'The pose of the femur or of the tibia is doubtful in this frame',
+    otherSide: 'Is it the other knee?',
   },
 
   unmatched: {

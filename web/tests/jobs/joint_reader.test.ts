@@ -19,7 +19,7 @@ function bench(troubles: Error[] = []) {
     await Promise.resolve();
     const trouble = troubles.shift();
     if (trouble) throw trouble;
-    if ('side' in input) return { columns: ['x'], hasPlate: false, plate: new Float64Array() };
+    if ('side' in input) return { columns: ['x'], hasPlate: false, plate: new Float64Array(), otherSide: null };
     const frames = input as readonly { femur: Uncertain }[];
     return { numbers: Float64Array.from(frames, ({ femur }) => femur.pose.x), impossible: frames.map(({ femur }) => (femur.pose.x === 7 ? 'no knee does it' : null)) };
   };

@@ -112,6 +112,14 @@ pub fn sides() -> impl TypedValueParser<Value = Side> {
     PossibleValuesParser::new(["left", "right"]).try_map(|side| side.parse::<Side>())
 }
 
+/// The side of the body as the core has it.
+pub fn of_body(side: Side) -> fluoropose::Side {
+    match side {
+        Side::Left => fluoropose::Side::Left,
+        Side::Right => fluoropose::Side::Right,
+    }
+}
+
 /// Seeds from one to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seeds(RangeInclusive<u64>);

@@ -28,7 +28,7 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       open?.free();
       open = null;
       open = new KneeJoint(...partOf(femur), ...partOf(tibia), side === 'left');
-      return { columns: open.columns, hasPlate: open.hasPlate, plate: open.plateOutline() };
+      return { columns: open.columns, hasPlate: open.hasPlate, plate: open.plateOutline(), otherSide: open.otherSide() ?? null };
     },
     joint: async (frames) => {
       const joint = open;

@@ -24,6 +24,8 @@ export interface JointFacts {
   readonly hasPlate: boolean;
   /** The border of the tray's plate from above: anterior and medial place of each point, mm; empty where there is none. */
   readonly plate: Float64Array;
+  /** What the femur's flange says of the side of the body, where it tells the other one: a sentence without its full stop. */
+  readonly otherSide: string | null;
 }
 
 /** A pose, and how uncertain it is, where that is known. */

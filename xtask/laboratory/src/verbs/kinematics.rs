@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::joint::beside::Middles;
+use fluoropose::joint::flange::OtherSide;
 use fluoropose::joint::kinematics::{self, joint_axes, relative_pose};
 use fluoropose::joint::numbers::{NUMBERS, of_pose, place};
 use fluoropose::joint::shared::KnownTo;
@@ -17,7 +18,7 @@ use fluoropose_report::{ORIGINS, besides, impossibilities, origins_told};
 use crate::exit;
 use crate::files::{Role, read_model_of, read_poses, write_text};
 use crate::finding::{axes_of, say_axes};
-use crate::options::sides;
+use crate::options::{of_body, sides};
 use fluoropose_phantom::implant::Side;
 
 /// Options of `kinematics`.
@@ -75,10 +76,7 @@ pub fn run(args: Args) -> Result<u8> {
             tibia.len()
         );
     }
-    let side = match args.side {
-        Side::Left => kinematics::Side::Left,
-        Side::Right => kinematics::Side::Right,
-    };
+    let side = of_body(args.side);
     let part = |file: &Option<PathBuf>, words: &Option<String>, role| {
         Part::read(file.as_deref(), words.as_deref(), role)
     };
@@ -96,6 +94,12 @@ pub fn run(args: Args) -> Result<u8> {
         if let Some(axes) = &part.axes {
             say_axes(name, axes);
         }
+    }
+    let known = femur_part.model.as_ref().zip(femur_part.axes.as_ref());
+    let other =
+        known.and_then(|(model, axes)| OtherSide::than(side, model.as_model().mesh(), axes));
+    if let Some(other) = other {
+        eprintln!("{other}");
     }
     println!("translations: {ORIGINS}");
     told.iter().chain(&far).for_each(|told| eprintln!("{told}"));

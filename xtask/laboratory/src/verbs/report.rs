@@ -9,15 +9,13 @@ pub mod sources;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use fluoropose::Side;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
-use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, ORIGINS, figure, html, write};
 
 use crate::exit;
 use crate::files::{Study, stated_frames_per_s, write_figure, write_text};
 use crate::finding::say_axes;
-use crate::options::study_files;
+use crate::options::{of_body, study_files};
 use knee::{Filtering, Knee};
 use out::{make_folder, write_cycles};
 use sources::Sources;
@@ -69,7 +67,12 @@ pub fn run(args: Args) -> Result<u8> {
     let Some(study) = &args.study else {
         return group::run(&args.group, &args.out).map(|()| 0);
     };
-    let Reported { film, axes } = report(study, &args)?;
+    let Reported {
+        film,
+        axes,
+        remarks,
+    } = report(study, &args)?;
+    remarks.iter().for_each(|remark| eprintln!("{remark}"));
     for (name, axes) in ["femoral", "tibial"].into_iter().zip(&axes) {
         say_axes(name, axes);
     }
@@ -91,6 +94,8 @@ pub struct Reported {
     film: JointFilm,
     /// The femoral and the tibial ones, in which its numbers are.
     axes: [AnatomicalAxes; 2],
+    /// What a reader of the report has to know.
+    remarks: Vec<String>,
 }
 
 /// Writes the files of a study; what they are made from comes back.
@@ -101,7 +106,7 @@ pub fn report(file: &Path, args: &Args) -> Result<Reported> {
     let study = Study::read(file)?;
     let sources = Sources::read(file, &study, args.poses.as_deref())?;
     let filtering = Filtering::new(frames_per_s(args.fps, &study)?, args.cutoff)?;
-    let knee = Knee::new(&study.name, side(&study)?, &sources)?;
+    let knee = Knee::new(&study.name, of_body(study.known_side()?), &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
     make_folder(&args.out)?;
@@ -110,7 +115,11 @@ pub fn report(file: &Path, args: &Args) -> Result<Reported> {
         overlay::write(&args.out, &study, &film, &sources)?;
     }
     let axes = [knee.femur_axes, knee.tibia_axes];
-    Ok(Reported { film, axes })
+    Ok(Reported {
+        film,
+        axes,
+        remarks: knee.remarks,
+    })
 }
 
 /// What is told of a study's joint that no knee has, by the poses in a folder; nothing where the study does not have one joint.
@@ -118,17 +127,10 @@ pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
     let film = || -> Result<JointFilm> {
         let study = Study::read(file)?;
         let sources = Sources::read(file, &study, Some(poses))?;
-        let knee = Knee::new(&study.name, side(&study)?, &sources)?;
+        let knee = Knee::new(&study.name, of_body(study.known_side()?), &sources)?;
         knee.film(&sources, &Filtering::new(None, None)?)
     };
     film().map_or_else(|_| Vec::new(), |film| film.impossibilities())
-}
-
-fn side(study: &Study) -> Result<Side> {
-    Ok(match study.known_side()? {
-        implant::Side::Left => Side::Left,
-        implant::Side::Right => Side::Right,
-    })
 }
 
 /// As asked for, or as the study states it, or as its frames do.

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use fluoropose::joint::beside::{Lying, Middles};
+use fluoropose::joint::flange::OtherSide;
 use fluoropose::joint::low_pass::LowPass;
 use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::relative::Relative;
@@ -76,6 +77,9 @@ impl<'s> Knee<'s> {
                 remarks.push(format!("The shape of the component {} does not tell front from back; if flexion has the wrong sign, its axes have to be stated.", body.name));
             }
         }
+        let femoral = sources.femur.model.as_model();
+        let other = OtherSide::than(side, femoral.mesh(), &femur);
+        remarks.extend(other.map(|other| format!("Side: {other}.")));
         let says = |body: &Body| body.uncertain.values().all(|one| one.film_steps.is_some());
         if !says(&sources.femur) || !says(&sources.tibia) {
             remarks.push("The covariances do not say what of them is the film's, so that it counts twice, as if it were wrong in each component by itself: `track` writes it now.".to_owned());

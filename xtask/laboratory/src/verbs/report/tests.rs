@@ -1,8 +1,8 @@
 //! The verb on built-in implants that turn about a known place.
 
-use fluoropose::Pose;
 use fluoropose::pose::EulerPose;
 use fluoropose::pose::jts;
+use fluoropose::{Pose, Side};
 use fluoropose_phantom::implant::{self, Parameters, femur, tibia};
 use fluoropose_phantom::stl;
 use fluoropose_report::read;
@@ -302,4 +302,21 @@ fn check_centre(figure: &str, column: impl Fn(&str) -> Vec<f64>) {
         "{words} for {on_the_line}"
     );
     assert!(words.ends_with("medial"), "{words}");
+}
+
+#[test]
+fn a_side_that_the_femur_is_not_made_for_is_told() {
+    let folder = std::env::temp_dir().join(format!("fluoropose-side-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    write_study(&folder);
+    let file = folder.join("study.toml");
+    let study = Study::read(&file).unwrap();
+    let sources = Sources::read(&file, &study, Some(&folder)).unwrap();
+    let told = |side| {
+        let knee = Knee::new("a knee", side, &sources).unwrap();
+        let of_side = |remark: &&String| remark.contains("flange is higher at its left half");
+        knee.remarks.iter().filter(of_side).count()
+    };
+    assert_eq!([Side::Left, Side::Right].map(told), [0, 1]);
+    std::fs::remove_dir_all(folder).unwrap();
 }

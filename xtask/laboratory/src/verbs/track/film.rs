@@ -27,6 +27,7 @@ use crate::files::{
     Film, Study, camera_of_frames, read, read_calibration, size_taken, write_poses, write_text,
 };
 use crate::finding::Stated;
+use crate::options::of_body;
 
 /// A component of a film that was followed.
 pub struct Tracked {
@@ -127,6 +128,11 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         Shape::of(component, model).with_context(|| format!("the component {}", component.name))
     };
     let shapes: Vec<Shape<'_>> = shapes.map(shape).collect::<Result<_>>()?;
+    let side = study.side.map(of_body);
+    let other = side.and_then(|side| shapes.iter().find_map(|shape| shape.other_side(side)));
+    if let Some(other) = other {
+        (request.listener)(Told::Remark(other.to_string()));
+    }
     let parts = |polarity| -> Vec<Part<'_>> {
         let part = |(number, shape)| Part::new(number, shape, &calibration, camera, polarity);
         shapes.iter().enumerate().map(part).collect()

@@ -3,11 +3,13 @@
 use std::sync::{Mutex, OnceLock, PoisonError, RwLock};
 
 use anyhow::{Context, Result};
+use fluoropose::Side;
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::{Limb, Subject};
 use fluoropose::image::mask::Mask;
+use fluoropose::joint::flange::OtherSide;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
@@ -101,6 +103,14 @@ impl<'s> Shape<'s> {
             axes,
             limb,
         })
+    }
+
+    /// What a femoral component says of the side that is stated.
+    pub(super) fn other_side(&self, stated: Side) -> Option<OtherSide> {
+        let limb = self
+            .limb
+            .filter(|limb| limb.component == KneeComponent::Femur)?;
+        OtherSide::than(stated, &limb.mesh, &limb.axes)
     }
 }
 
