@@ -180,7 +180,7 @@ async function asksForSide(page) {
   await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
   // One line needs no more room than that.
   await until(async () => (await page.getByRole('region', { name: 'Joint', exact: true }).boundingBox())?.height ?? 0, (height) => height < 120, 'a low dock');
-  await joint(page).getByText('Which knee is it?').waitFor();
+  await joint(page).getByText('Which knee is it? Signs depend on it. The femur is made for a left one.').waitFor();
   await joint(page).getByRole('button', { name: 'Left' }).press('Enter');
   await joint(page).getByRole('img', { name: /^Flexion over flexion in 7 frames/ }).waitFor();
 }

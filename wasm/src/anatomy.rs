@@ -1,12 +1,17 @@
 //! Which way a component lies in the axes of its file, as far as its shape tells.
 
+use fluoropose::joint::flange::side_by_flange;
+use fluoropose::joint::kinematics::Side;
 use fluoropose::mesh::Mesh;
-use fluoropose::mesh::anatomy::{KneeComponent, anatomical_axes, component_by_shape, field_axes};
+use fluoropose::mesh::anatomy::{
+    AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape, field_axes,
+};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::error::sentence;
+use fluoropose_page::pose_numbers::axes_from;
 
 /// Anatomical axes that a shape tells.
 #[wasm_bindgen]
@@ -83,6 +88,30 @@ pub fn shape_axes(
         },
         model_from_field: directions.unwrap_or(Pose::IDENTITY),
     })
+}
+
+/// Which knee a femoral component is made for, as its flange tells: `left` or `right`; nothing where it does not tell. `axes` are nine
+/// numbers as [`ShapeAxes::directions`] gives them, with their signs.
+///
+/// # Errors
+/// The core's sentence about the vertex or triangle at fault, or about axes that are no right-handed frame.
+#[wasm_bindgen(js_name = flangeSide)]
+pub fn flange_side(
+    vertices: &[f32],
+    triangles: &[u32],
+    axes: &[f64],
+) -> Result<Option<String>, JsError> {
+    let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0).map_err(sentence)?;
+    let axes = AnatomicalAxes {
+        model_from_field: axes_from(axes)?,
+        front_is_known: true,
+        are_files_own: false,
+    };
+    let word = |side| match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    Ok(side_by_flange(&mesh, &axes).map(|side| word(side).to_owned()))
 }
 
 #[cfg(test)]

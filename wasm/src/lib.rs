@@ -27,7 +27,7 @@ mod search_plan;
 mod shape;
 mod working_model;
 
-pub use anatomy::{ShapeAxes, shape_axes, shape_component};
+pub use anatomy::{ShapeAxes, flange_side, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use camera::camera_doubts;
 pub use choice::{Chosen, Surroundings, choose_pose};

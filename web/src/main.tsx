@@ -21,6 +21,7 @@ import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
 import { EdgeWatch } from './jobs/edge_watch';
 import { HandJudge } from './jobs/hand_judge';
+import { SideTeller } from './jobs/side_teller';
 import { readJointHere } from './jobs/joint_here';
 import { JointReader } from './jobs/joint_reader';
 import { JointWatch } from './jobs/joint_watch';
@@ -77,6 +78,7 @@ async function start(root: HTMLElement): Promise<void> {
   new HandJudge(services, matcher);
   const edges = new EdgeWatch(services, matcher);
   new JointWatch(services, matcher);
+  const sideTeller = new SideTeller(services, matcher);
   keepLeads(services.store);
   const film = new FilmLater(services, matcher, filmWorker());
   const oneClick = new OneClick(services, matcher, film);
@@ -102,6 +104,7 @@ async function start(root: HTMLElement): Promise<void> {
     landscapes,
     edges,
     joint,
+    sideTeller,
     actions,
     calibrator,
     videos,

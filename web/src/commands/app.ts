@@ -9,6 +9,7 @@ import type { Librarian } from '../jobs/librarian';
 import type { Poser } from '../jobs/poser';
 import type { Services } from '../jobs/services';
 import type { JointReader } from '../jobs/joint_reader';
+import type { SideTeller } from '../jobs/side_teller';
 import type { EdgeWatch } from '../jobs/edge_watch';
 import type { Landscapes } from '../jobs/landscape';
 import type { Videos } from '../exchange/videos';
@@ -33,6 +34,7 @@ export interface App {
   readonly landscapes: Landscapes;
   readonly edges: EdgeWatch;
   readonly joint: JointReader;
+  readonly sideTeller: SideTeller;
 }
 
 export const AppContext = createContext<App | null>(null);

@@ -68,6 +68,7 @@ export const curves = {
     poses: 'No frame has a pose of both components yet.',
     side: 'Which knee is it? Signs depend on it.',
     sides: { left: 'Left', right: 'Right' },
+    told: { left: 'The femur is made for a left one.', right: 'The femur is made for a right one.' },
     finding: (component: string) => `The axes of the ${component} are being found from its shape.`,
     front: (component: string) => `Joint angles wait: which way is the front of the ${component}?`,
     axes: (component: string) => `Joint angles wait for the axes of the ${component}.`,

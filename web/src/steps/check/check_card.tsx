@@ -92,10 +92,10 @@ function CheckButtons({ accept, edit: editWords, children }: { accept: Words; ed
 
 /** Rivals of a knee are told apart by its angles first of all, and those need the side. */
 function AskSide() {
-  const { store } = useApp().services;
+  const { services: { store }, sideTeller: { told } } = useApp();
   return (
     <p class="guide-text">
-      {later.check.askSide}{' '}
+      {later.check.askSide} {told && `${later.curves.needs.told[told]} `}
       {(['left', 'right'] as const).map((side) => (
         <Fragment key={side}>
           <button type="button" class="button small" onClick={() => store.perform(setSide(side))}>

@@ -6,7 +6,7 @@ import { texts } from '../../texts/texts';
 
 /** What the curves wait for, and where to say it. */
 export function Needs({ needs }: { needs: MotionNeeds }) {
-  const { store } = useApp().services;
+  const { services: { store }, sideTeller: { told } } = useApp();
   const words = later.curves.needs;
   switch (needs.what) {
     case 'poses':
@@ -14,7 +14,7 @@ export function Needs({ needs }: { needs: MotionNeeds }) {
     case 'side':
       return (
         <p class="joint-needs">
-          {words.side}{' '}
+          {words.side} {told && `${words.told[told]} `}
           {(['left', 'right'] as const).map((side) => (
             <button key={side} type="button" class="button small" onClick={() => store.perform(commands.setSide(side))}>
               {words.sides[side]}

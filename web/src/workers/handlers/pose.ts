@@ -1,4 +1,4 @@
-import { cameraDoubts, checkLibrary, choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
@@ -53,6 +53,11 @@ serve<PoseProtocol>({
     const axes = { directions: directionsFrom(found.directions), told: found.told as Told };
     found.free();
     return axes;
+  },
+  flangeSide: async ({ mesh, axes }) => {
+    await ready;
+    const told = flangeSide(mesh.vertices, mesh.triangles, numbersOf(axes));
+    return (['left', 'right'] as const).find((side) => side === told) ?? null;
   },
   match: ({ before, ...input }) =>
     withTraced(input, (matcher, traced) => found(matcher, () => followed(matcher, traced, before) ?? matcher.matchOutline(traced))),

@@ -1,3 +1,4 @@
+import type { Directions } from '../../geometry/axes';
 import type { Axes } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
@@ -39,6 +40,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'>; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */
   axes: { input: { component: ComponentName; mesh: ModelMesh }; output: Pick<Axes, 'directions' | 'told'>; progress: never };
+  /** Which knee a femoral component is made for; null where its flange does not tell. */
+  flangeSide: { input: { mesh: ModelMesh; axes: Directions }; output: 'left' | 'right' | null; progress: never };
   /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */
   match: { input: MatchInput & { readonly before: readonly Refined[] }; output: Match; progress: never };
   /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
