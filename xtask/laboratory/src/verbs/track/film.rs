@@ -4,6 +4,7 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
+use fluoropose::Side;
 use fluoropose::follow::{Cell, Conclusion, State, frames_to_ask};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
@@ -91,10 +92,6 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     check_components(request, &study)?;
     let frames = study.frames_folder()?;
     study.check_files(Some(frames))?;
-    if study.is_knee() && study.side.is_none() {
-        let lack = study.lacks("side");
-        (request.listener)(Told::Remark(format!("{lack}: joint numbers need it")));
-    }
     let calibration = read_calibration(&study.calibration)?;
     let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
@@ -128,10 +125,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         Shape::of(component, model).with_context(|| format!("the component {}", component.name))
     };
     let shapes: Vec<Shape<'_>> = shapes.map(shape).collect::<Result<_>>()?;
-    let side = study.side.map(of_body);
-    let other = side.and_then(|side| shapes.iter().find_map(|shape| shape.other_side(side)));
-    if let Some(other) = other {
-        (request.listener)(Told::Remark(other.to_string()));
+    if let Some(remark) = side_remark(&study, &shapes) {
+        (request.listener)(Told::Remark(remark));
     }
     let parts = |polarity| -> Vec<Part<'_>> {
         let part = |(number, shape)| Part::new(number, shape, &calibration, camera, polarity);
@@ -146,6 +141,21 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         (films, margins) = followed(&run, &parts, &anchors)?;
     }
     finish(&run, &parts, &films, &margins)
+}
+
+/// What there is to say of the side of the body, without which there are no joint numbers, and of which no pose tells.
+fn side_remark(study: &Study, shapes: &[Shape<'_>]) -> Option<String> {
+    if let Some(stated) = study.side.map(of_body) {
+        let other = shapes.iter().find_map(|shape| shape.other_side(stated))?;
+        return Some(other.to_string());
+    }
+    let told = match shapes.iter().find_map(Shape::made_for) {
+        Some(Side::Left) => "; the femoral component is made for a left knee",
+        Some(Side::Right) => "; the femoral component is made for a right knee",
+        None => "",
+    };
+    let lack = || format!("{}: joint numbers need it{told}", study.lacks("side"));
+    study.is_knee().then(lack)
 }
 
 /// Whether the study has the components that are asked for.

@@ -9,7 +9,7 @@ use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::{Limb, Subject};
 use fluoropose::image::mask::Mask;
-use fluoropose::joint::flange::OtherSide;
+use fluoropose::joint::flange::{OtherSide, side_by_flange};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
@@ -107,10 +107,19 @@ impl<'s> Shape<'s> {
 
     /// What a femoral component says of the side that is stated.
     pub(super) fn other_side(&self, stated: Side) -> Option<OtherSide> {
-        let limb = self
-            .limb
-            .filter(|limb| limb.component == KneeComponent::Femur)?;
+        let limb = self.femoral()?;
         OtherSide::than(stated, &limb.mesh, &limb.axes)
+    }
+
+    /// The knee that a femoral component is made for, where its flange tells.
+    pub(super) fn made_for(&self) -> Option<Side> {
+        let limb = self.femoral()?;
+        side_by_flange(&limb.mesh, &limb.axes)
+    }
+
+    fn femoral(&self) -> Option<Limb<'s>> {
+        self.limb
+            .filter(|limb| limb.component == KneeComponent::Femur)
     }
 }
 
