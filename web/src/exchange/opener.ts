@@ -15,6 +15,7 @@ import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { atHand, componentFor } from './guess';
 import { rowsOfFrames } from './pose_rows';
+import { offerStatedOrder } from './stated_order';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
 import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
@@ -64,6 +65,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   store.show({ component: atHand(store.doc, store.ui.component) });
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
+  offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
 }
