@@ -267,9 +267,12 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
       return openDistortion(services, file);
     default:
       if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
-      throw new Error(texts.said.notRecognised);
+      throw new Error(ARCHIVE.test(file.name) ? later.opening.archive : texts.said.notRecognised);
   }
 }
+
+/** By their names: documents and tables are zips too. */
+const ARCHIVE = /\.(zip|rar|7z|tar|t?gz)$/i;
 
 // --- Each kind ----------------------------------------------------------------------------------------------------
 
