@@ -161,6 +161,7 @@ async function badFiles(page) {
     { bad: file('short.txt', 'JT_INTCALIB\n1200\n0\n'), words: /ends/ },
     { bad: file('femur-nothing.stl', Buffer.alloc(84)), words: /no triangle/ },
     { bad: file('femur-solid.stl', 'solid nothing\nendsolid nothing\n'), words: /no triangle/ },
+    { bad: file('study.zip', 'PK\u0003\u0004 a study'), words: /archive.*unpack it/ },
     { bad: file('femur-empty.stl', ''), words: /empty|not recognised/ },
     { bad: file('nan.jts', 'JT_EULER_312\nx_tran, y_tran, z_tran, z_rot, x_rot, y_rot\n1, 2, NaN, 4, 5, 6\n'), words: /Line 3 .* six numbers/ },
     { bad: file('cut.fluoropose.json', '{"kind":"fluoropose-session","version":1,"docu'), words: /cut short|damaged/ },

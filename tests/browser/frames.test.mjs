@@ -55,12 +55,31 @@ pageTest('frames of every kind', async (page, t) => {
     await Promise.all(names.map((name, index) => writeFile(join(folder, name), png(8, (grey) => (grey + index) % 256).buffer)));
     await dropPaths(page, [folder]);
     await panel.waitForFrames(page, 3);
-    for (const [index, name] of ['knee2.png', 'knee9.png', 'knee10.png'].entries()) {
-      await page.getByRole('slider', { name: 'Frame', exact: true }).fill(String(index));
-      await page.getByRole('application', { name: new RegExp(`^${name}, frame ${index + 1} of 3`) }).waitFor();
-    }
+    await stand(page, 'knee2.png', 'knee9.png', 'knee10.png');
+  });
+
+  await step(page, t, 'DICOM files whose own numbers are another order than their names: a person says which is meant', async () => {
+    await visit(page);
+    const shifted = (/** @type {number} */ by) => (/** @type {number} */ grey) => grey + by;
+    await choose(page, ...[['1.2.1', 3], ['1.2.2', 1], ['1.2.9', 2]].map(([name, number], at) => dicom([shifted(at)], { name: String(name), number: Number(number) })));
+    await panel.waitForFrames(page, 3);
+    await panel.waitForWords(page, /another order \(Instance Number\): 1\.2\.1 is first by name, 1\.2\.2 by number/);
+    await stand(page, '1.2.1', '1.2.2', '1.2.9');
+    await page.getByRole('button', { name: 'Order by number' }).click();
+    await panel.waitForWords(page, /stand by the numbers in their files/);
+    await stand(page, '1.2.2', '1.2.9', '1.2.1');
+    await page.getByRole('button', { name: /^Undo: order the frames by number/ }).click();
+    await stand(page, '1.2.1', '1.2.2', '1.2.9');
   });
 });
+
+/** @param {Page} page @param {string[]} names */
+async function stand(page, ...names) {
+  for (const [index, name] of names.entries()) {
+    await page.getByRole('slider', { name: 'Frame', exact: true }).fill(String(index));
+    await page.getByRole('application', { name: new RegExp(`^${name}, frame ${index + 1} of ${names.length}`) }).waitFor();
+  }
+}
 
 /**
  * Every frame has the right size and the right grey values under the mouse.

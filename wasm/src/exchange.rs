@@ -132,9 +132,9 @@ fn traced(region: &Mask<'_>, specks: u64, tolerance: f64) -> Result<MaskOutline,
     let mut border = Box::<Contour<BORDER_CORNERS>>::default();
     follow_border(region, border.as_mut()).map_err(sentence)?;
     let numbers = |points: &[Point]| points.iter().flat_map(|p| [p.column, p.row]).collect();
-    let few = simplified(&border, tolerance)?;
-    let area = area_of(&border);
     let (width, height) = (region.width(), region.height());
+    let few = simplified(&border, tolerance, [width, height])?;
+    let area = area_of(&border);
     let [exact, simple] = [
         filled(&border, width, height)?,
         filled(&few, width, height)?,
@@ -154,7 +154,12 @@ fn traced(region: &Mask<'_>, specks: u64, tolerance: f64) -> Result<MaskOutline,
     })
 }
 
-pub(crate) fn simplified(border: &[Point], tolerance: f64) -> Result<Vec<Point>, JsError> {
+/// The border with fewer points, inside its frame: a region that is cut off there keeps its area by points beyond it.
+pub(crate) fn simplified(
+    border: &[Point],
+    tolerance: f64,
+    [width, height]: [usize; 2],
+) -> Result<Vec<Point>, JsError> {
     let line: Vec<Vertex> = crack_middles(border).map(Vertex::new).collect();
     let mut marks = vec![false; line.len()];
     let mut memory = vec![Vertex::default(); line.len()];
@@ -165,7 +170,14 @@ pub(crate) fn simplified(border: &[Point], tolerance: f64) -> Result<Vec<Point>,
         balanced: true,
     };
     simplify(&line, &settings, |_| false, &mut marks, &mut few).map_err(sentence)?;
-    Ok(few.as_slice().iter().map(|vertex| vertex.at).collect())
+    let inside = |at: Point| {
+        Point::new(
+            at.column.clamp(0.0, width as f64),
+            at.row.clamp(0.0, height as f64),
+        )
+    };
+    let points = few.as_slice().iter().map(|vertex| inside(vertex.at));
+    Ok(points.collect())
 }
 
 /// The middle of each side of a pixel along a border of whole corners.
@@ -244,6 +256,28 @@ mod tests {
 
     fn outline(pixels: &[u16]) -> MaskOutline {
         outline_of_mask(&film(pixels), 9, 0.4).ok().unwrap()
+    }
+
+    /// Also with few points, which keep the area by lying beyond the region: such an outline was refused as one outside of its frame, and so
+    /// was a click beside the implant that it is of.
+    #[test]
+    fn a_region_that_the_frame_cuts_has_its_outline_inside() {
+        let mut beyond = 0;
+        for (column, row) in [(58, 20), (1, 20), (30, 1), (30, 38), (57, 37), (60, 3)] {
+            for radius in 8..=18_i64 {
+                let within =
+                    |c: usize, r: usize| (c as i64 - column).pow(2) + (r as i64 - row).pow(2);
+                let pixels = draw(|c, r| within(c, r) < radius * radius);
+                let found = outline_of_mask(&film(&pixels), 9, 0.5).ok();
+                let found = found.expect("its outlines are inside");
+                let on = |at: f64, most: usize| at == 0.0 || at == most as f64;
+                let pairs = found.points.as_chunks::<2>().0.iter();
+                beyond += pairs
+                    .filter(|[c, r]| on(*c, WIDTH) || on(*r, HEIGHT))
+                    .count();
+            }
+        }
+        assert!(beyond > 0, "none of them is at the border");
     }
 
     #[test]

@@ -92,9 +92,15 @@ function tiffDirectory(at, length, last) {
   return directory;
 }
 
-/** An uncompressed DICOM file of 12 stored bits, explicit little endian, after PS3.5 and PS3.10. @param {((grey: number) => number)[]} frames */
-export function dicom(frames) {
+/**
+ * An uncompressed DICOM file of 12 stored bits, explicit little endian, after PS3.5 and PS3.10.
+ *
+ * @param {((grey: number) => number)[]} frames
+ * @param {{ name?: string, number?: number }} [of] `number`: its place in its series
+ */
+export function dicom(frames, { name = 'run.dcm', number } = {}) {
   const image = [
+    ...(number === undefined ? [] : [element(0x0020, 0x0013, 'IS', `${number}`.padEnd(2))]),
     element(0x0028, 0x0002, 'US', words([1])),
     element(0x0028, 0x0004, 'CS', 'MONOCHROME2 '),
     element(0x0028, 0x0008, 'IS', `${frames.length}`.padEnd(2)),
@@ -108,7 +114,7 @@ export function dicom(frames) {
     element(0x0028, 0x1051, 'DS', '600 '),
     element(0x7fe0, 0x0010, 'OW', words(frames.flatMap((change) => pattern(change)))),
   ];
-  return file('run.dcm', withMeta('1.2.840.10008.1.2.1\0', image));
+  return file(name, withMeta('1.2.840.10008.1.2.1\0', image));
 }
 
 /**

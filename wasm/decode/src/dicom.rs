@@ -64,6 +64,7 @@ use problem::damaged;
 pub(crate) use start::is_dicom;
 use structure::{DataSet, PixelData};
 use syntax::Coding;
+use values::Values;
 
 /// A DICOM file whose structure and attributes have been checked; frames are decoded when asked for.
 pub(crate) struct Dicom {
@@ -71,6 +72,7 @@ pub(crate) struct Dicom {
     /// Attributes of each frame, where functional groups state them.
     per_frame: Vec<Attributes>,
     frames_per_s: Option<f64>,
+    instance_number: Option<f64>,
     coding: Coding,
     source: Source,
 }
@@ -97,6 +99,11 @@ impl Dicom {
         let mut dicom = Self {
             per_frame: attributes.of_frames(bytes, &data_set),
             frames_per_s: rate::frames_per_s(bytes, &data_set),
+            instance_number: Values {
+                bytes,
+                found: &data_set.wanted,
+            }
+            .finite(tags::INSTANCE_NUMBER),
             source: Source::of(
                 bytes,
                 data_set,
@@ -119,6 +126,11 @@ impl Dicom {
     /// Frames a second, where the file states them and they are even.
     pub(crate) fn frames_per_s(&self) -> Option<f64> {
         self.frames_per_s
+    }
+
+    /// The place in its series, where the file states it.
+    pub(crate) fn instance_number(&self) -> Option<f64> {
+        self.instance_number
     }
 
     /// Width and height of frame `index`, pixels.

@@ -85,6 +85,14 @@ impl<'a> FrameFile<'a> {
         }
     }
 
+    /// The place of the file among those of its series, where it states one (DICOM): names may have another order.
+    pub fn instance_number(&self) -> Option<f64> {
+        match &self.content {
+            Content::Dicom(dicom) => dicom.instance_number(),
+            _ => None,
+        }
+    }
+
     /// Width and height of frame `index`, counted from 0, pixels; `None` if there is no such frame. Nothing is decoded.
     pub fn size(&self, index: usize) -> Option<(u32, u32)> {
         if index >= self.count() {

@@ -57,6 +57,12 @@ impl PageFrameFile {
         self.0.frames_per_s()
     }
 
+    /// The place of the file among those of its series, if stated.
+    #[wasm_bindgen(getter, js_name = instanceNumber)]
+    pub fn instance_number(&self) -> Option<f64> {
+        self.0.instance_number()
+    }
+
     /// Decodes frame `index`, counted from 0.
     ///
     /// # Errors

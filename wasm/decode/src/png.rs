@@ -22,7 +22,15 @@ fn damaged(error: DecodingError) -> Problem {
         DecodingError::LimitsExceeded => {
             Problem::damaged(FORMAT, "it asks for more memory than any real frame needs")
         }
-        other => Problem::damaged(FORMAT, other.to_string()),
+        other => Problem::damaged(FORMAT, in_words(other.to_string())),
+    }
+}
+
+/// The decoder names chunks by all of their fields, which tells nobody anything.
+fn in_words(told: String) -> String {
+    match told.contains("ChunkType {") {
+        true => "a part of it is damaged, or stands where it must not".to_owned(),
+        false => told,
     }
 }
 

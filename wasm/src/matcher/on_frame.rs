@@ -343,6 +343,6 @@ pub(super) fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
     largest_region(mask, &mut rest, &mut largest).map_err(sentence)?;
     let mut border = Box::<Contour<BORDER_CORNERS>>::default();
     follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
-    let points = simplified(&border, TOLERANCE)?;
+    let points = simplified(&border, TOLERANCE, [width, height])?;
     Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
 }

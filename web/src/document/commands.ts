@@ -1,5 +1,5 @@
 import type { Command, Place } from './command';
-import { byHand } from './laid_by';
+import { byHand, isSilhouette } from './laid_by';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
@@ -196,7 +196,7 @@ export function setModel(name: ComponentName, model: ModelReference): Command {
 
 /**
  * The models change places, with their libraries and what a person said of their axes. What was found with them is found anew;
- * what was followed is dropped.
+ * what was followed is dropped, and so are outlines that are a silhouette of the wrong model, where a click led.
  */
 export function swapModels(): Command {
   const moved = (component: Component): Component => ({ ...component, axes: component.axes?.from === 'shape' ? null : component.axes });
@@ -204,7 +204,10 @@ export function swapModels(): Command {
     label: texts.steps.swapModels,
     apply: (doc) => {
       const { femur, tibia } = doc.components;
-      const cells = doc.cells.map((cell) => (isFromFilm(cell.result) ? { ...cell, result: null, resultOf: null } : cell));
+      const cells = doc.cells.map((cell) => {
+        if (isSilhouette(cell.outline)) return { ...cell, outline: null, result: null, resultOf: null };
+        return isFromFilm(cell.result) ? { ...cell, result: null, resultOf: null } : cell;
+      });
       return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells };
     },
   };

@@ -10,7 +10,7 @@ import type { Proposal } from './proposal';
 import { DEFAULT_EXPORTING, type Exporting } from '../terms/exporting';
 import { DEFAULT_JOINT, type JointView } from '../terms/joint';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
-import { type Cell, cellKey, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
+import { type Cell, cellKey, cellOf, type Doc, EMPTY_DOC, type FrameEntry, type ModelReference } from './types';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 
@@ -97,6 +97,7 @@ export interface PoseSets {
 export interface Refusal {
   readonly text: string;
   readonly of: Cell;
+  readonly model: ModelReference | null;
 }
 
 export interface Offer {
@@ -270,10 +271,10 @@ export class Store {
     this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
   }
 
-  /** The same, and it stays with the cell that it is about until that changes. */
+  /** The same, and it stays with the cell that it is about until that or its model changes. */
   sayAt({ frameId, component }: Place, kind: Notice['kind'], text: string): void {
     this.say(kind, text);
-    const refusal = { text, of: cellOf(this.doc, frameId, component) };
+    const refusal = { text, of: cellOf(this.doc, frameId, component), model: this.doc.components[component].model };
     this.show({ refusals: { ...this.ui.refusals, [cellKey(frameId, component)]: refusal } });
   }
 
@@ -331,11 +332,12 @@ export function currentPlace(state: State): Place | null {
   return frame && { frameId: frame.id, component: state.ui.component };
 }
 
-/** Why the cell on view was left as it is; null where nothing was refused, or it has changed since. */
+/** Why the cell on view was left as it is; null where nothing was refused, or the cell or its model has changed since. */
 export function currentRefusal(state: State): string | null {
   const place = currentPlace(state);
   const refusal = place && state.ui.refusals[cellKey(place.frameId, place.component)];
-  return refusal && refusal.of === currentCell(state) ? refusal.text : null;
+  const isOfNow = refusal && refusal.of === currentCell(state) && refusal.model === state.history.present.components[state.ui.component].model;
+  return isOfNow ? refusal.text : null;
 }
 
 export function currentCell(state: State): Cell {

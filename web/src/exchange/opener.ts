@@ -15,6 +15,7 @@ import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { atHand, componentFor } from './guess';
 import { rowsOfFrames } from './pose_rows';
+import { offerStatedOrder } from './stated_order';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
 import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
@@ -64,6 +65,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   store.show({ component: atHand(store.doc, store.ui.component) });
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
+  offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
 }
@@ -265,9 +267,12 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
       return openDistortion(services, file);
     default:
       if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
-      throw new Error(texts.said.notRecognised);
+      throw new Error(ARCHIVE.test(file.name) ? later.opening.archive : texts.said.notRecognised);
   }
 }
+
+/** By their names: documents and tables are zips too. */
+const ARCHIVE = /\.(zip|rar|7z|tar|t?gz)$/i;
 
 // --- Each kind ----------------------------------------------------------------------------------------------------
 

@@ -107,7 +107,7 @@ export class Follower {
     store.amend((doc) => withoutSoFar(doc, [...before.values()]));
     if (found.length > 0) store.perform(takeFollowed(found));
     const posed = found.filter(({ pose }) => pose).length;
-    const done = texts.follow.done(posed, found.filter(isDoubtful).length, found.length - posed, abort.signal.aborted);
+    const done = texts.follow.done(posed, found.some(isDoubtful), found.length - posed, abort.signal.aborted);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 

@@ -59,10 +59,21 @@ export class JointReader {
 
   /** The numbers of one frame, by the names of their columns; null while they are not known, or where no knee has them. */
   rowOf(frameId: string): ReadonlyMap<string, number> | null {
+    const here = this.#here(frameId);
+    if (!here || here.known.impossible !== null) return null;
+    return new Map(here.columns.map((name, at) => [name, here.known.row[at] ?? NaN]));
+  }
+
+  /** Why no knee has the numbers of one frame, a sentence without its full stop; null where one may have them, or they are not known. */
+  impossibleIn(frameId: string): string | null {
+    return this.#here(frameId)?.known.impossible ?? null;
+  }
+
+  #here(frameId: string): { readonly known: Known; readonly columns: readonly string[] } | null {
     const asked = jointAskedIn(this.#services.store.doc, frameId);
     const known = this.#known.get(frameId);
-    if (!asked || !known || known.impossible !== null || !this.#open || this.#key !== keyOf(asked) || this.#missing(asked).length > 0) return null;
-    return new Map(this.#open.facts.columns.map((name, at) => [name, known.row[at] ?? NaN]));
+    if (!asked || !known || !this.#open || this.#key !== keyOf(asked) || this.#missing(asked).length > 0) return null;
+    return { known, columns: this.#open.facts.columns };
   }
 
   /** What the femur's flange says of the side of the body, where it tells the other one. */

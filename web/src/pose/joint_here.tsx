@@ -3,16 +3,18 @@ import { currentFrame, type State } from '../document/store';
 import { jointAskedIn, trustOf } from '../results/motion';
 import { asSentence } from '../texts/sentences';
 import { formatNumber, plusMinus } from '../texts/numbers';
+import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 
 const ANGLES = ['flexion', 'abduction', 'internal_rotation'] as const;
 
-/** The joint's angles in the frame on view, and whether the pose of either component is doubtful. Their place is kept while they are worked out. */
+/** The joint's angles in the frame on view, or why no knee has them, and whether the pose of either component is doubtful. Their place is kept while they are worked out. */
 export function JointHere({ state }: { state: State }) {
   const { joint } = useApp();
   const frame = currentFrame(state);
   if (!frame || !jointAskedIn(state.history.present, frame.id)) return null;
   const row = joint.rowOf(frame.id);
+  const impossible = joint.impossibleIn(frame.id);
   const words = texts.panel.joint;
   const { doubtful } = trustOf(state.history.present, frame.id);
   return (
@@ -25,6 +27,7 @@ export function JointHere({ state }: { state: State }) {
           </div>
         ))}
       </dl>
+      {impossible !== null && <p class="card-note">{asSentence(impossible)}</p>}
       {doubtful && (
         <p class="card-note" title={words.doubtTitle}>
           {words.doubt}

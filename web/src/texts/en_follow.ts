@@ -30,8 +30,9 @@ export const follow = {
   noneSet: 'Nothing to follow from: click the femur or the tibia in one frame first.',
   allSet: 'Every frame is followed already from those that are set.',
   gone: (frame: number) => `Frame ${frame} is gone: following stopped there.`,
-  done: (posed: number, doubtful: number, missing: number, stopped: boolean) =>
-    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful > 0 ? `, ${doubtful} of them doubtful: N goes from one to the next` : ''}.${
+  /** How many are doubtful the header counts: what film and joint tell afterwards changes it. */
+  done: (posed: number, someDoubtful: boolean, missing: number, stopped: boolean) =>
+    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${someDoubtful ? ', some doubtful: N goes from one to the next' : ''}.${
       missing > 0 ? ` ${missing} ${missing === 1 ? 'cell is' : 'cells are'} without one (✕): a click there, or an outline, helps.` : ''
     }`,
 };

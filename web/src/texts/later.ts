@@ -2,8 +2,9 @@ import { calibrateSheet as calibrate } from './en_calibrate_sheet';
 import { check } from './en_check_card';
 import { exporting } from './en_exporting';
 import { curves } from './en_joint_curves';
+import { opening } from './en_opening';
 
-const english = { calibrate, check, exporting, curves };
+const english = { calibrate, check, exporting, curves, opening };
 
 /** What is said by views that come when they are opened: apart from the rest, so that the first load does not have it. */
 export const later: Readonly<typeof english> = english;

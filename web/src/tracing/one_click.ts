@@ -2,7 +2,8 @@ import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { gaveWay } from '../document/followed';
-import { cellKey, cellOf, type FrameEntry } from '../document/types';
+import type { Store } from '../document/store';
+import { cellKey, cellOf, type FrameEntry, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -141,8 +142,24 @@ export class OneClick {
     store.show({ selectedPoint: null });
     const followed = gaveWay(before, store.doc, place) ? ` ${texts.follow.gaveWay}` : '';
     // What was refused stands in the cell and the bottom line as long as it does.
-    if (answer.match?.refusal == null) store.say('info', (verdictSentence(place.component, answer) ?? answer.sentence) + followed, undefined, 'pose');
+    if (answer.match?.refusal != null) return;
+    store.say('info', (verdictSentence(place.component, answer) ?? answer.sentence) + followed, undefined, 'pose');
+    quietOnceOther(store, place);
   }
+}
+
+/** What was just said of a pose is not left beside another verdict: what comes to be known of film and joint may decide between two poses. */
+function quietOnceOther(store: Store, { frameId, component }: Place): void {
+  const { notice } = store.ui;
+  const wordNow = () => verdictOf(cellOf(store.doc, frameId, component).result)?.word;
+  const said = wordNow();
+  const end = store.subscribe(() => {
+    const isSaid = store.ui.notice === notice;
+    // While it is refined anew there is none.
+    if (isSaid && [said, undefined].includes(wordNow())) return;
+    end();
+    if (isSaid) store.quiet();
+  });
 }
 
 /** What is said of a pose is its verdict: of one that is good no doubt. Null without one. */

@@ -127,7 +127,7 @@ describe('following', () => {
     store.perform(setPoseByHand(place(1), poseOf(0)));
     await follower.follow();
     expect(xs()).toEqual([10, 0, 12, 13, 14, null]);
-    expect(store.ui.notice?.text).toBe('4 poses found, 1 of them doubtful: N goes from one to the next. 1 cell is without one (\u2715): a click there, or an outline, helps.');
+    expect(store.ui.notice?.text).toBe('4 poses found, some doubtful: N goes from one to the next. 1 cell is without one (\u2715): a click there, or an outline, helps.');
     expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' }, doubt: 2, candidates: [{ pose: poseOf(14) }, { pose: poseOf(-4), residual: 0.3 }] });
     expect(cellOf(store.doc, 'f5', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'As untrackable says.' });
     store.undo();

@@ -54,6 +54,7 @@ describe('the reader of the joint', () => {
     expect(asked()).toEqual([1, 1]);
     expect(reader.rowOf('f5')).toEqual(new Map([['x', 5]]));
     expect([reader.rowOf('f7'), reader.rowOf('f6')]).toEqual([null, null]);
+    expect(['f5', 'f6', 'f7'].map((id) => reader.impossibleIn(id))).toEqual([null, null, 'no knee does it']);
     set(store, 5, 'tibia', 100);
     expect(reader.rowOf('f5')).toBe(null);
     await reader.lookAt('f5');

@@ -5,6 +5,7 @@ import { takeFollowed } from '../../src/document/followed';
 import { Store } from '../../src/document/store';
 import { cellOf, type Result } from '../../src/document/types';
 import type { ComponentName } from '../../src/terms/component';
+import { framePoint } from '../../src/geometry/points';
 import { misplacedModels } from '../../src/results/misplaced';
 
 const SHAPES: Readonly<Record<string, ComponentName | null>> = { bow: 'femur', tray: 'tibia', lump: null };
@@ -52,5 +53,22 @@ describe('models in the wrong place', () => {
     store.undo();
     expect(store.doc.components).toBe(before.components);
     expect(cellOf(store.doc, 'f', 'femur').result?.kind).toBe('posed');
+  });
+
+  it('take the silhouettes along that clicks laid with them, and leave what a person traced', () => {
+    const store = models('tray', 'bow');
+    const points = [framePoint(1, 1), framePoint(5, 1), framePoint(5, 5)];
+    const lay = (component: ComponentName, laidBy: 'click' | undefined) => {
+      const outline = { points, closed: true, unknownSides: [], ...(laidBy && { laidBy }) };
+      const result: Result = { kind: 'failed', origin: 'k', sentence: 's' };
+      store.perform({ label: 'lay', apply: (doc) => withCell(doc, { frameId: 'f', component }, { outline, result, resultOf: outline }) });
+    };
+    lay('femur', 'click');
+    lay('tibia', undefined);
+    store.perform(swapModels());
+    expect(cellOf(store.doc, 'f', 'femur')).toMatchObject({ outline: null, result: null });
+    expect(cellOf(store.doc, 'f', 'tibia').outline?.points).toEqual(points);
+    store.undo();
+    expect(cellOf(store.doc, 'f', 'femur').outline?.laidBy).toBe('click');
   });
 });

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { OWN_AXES, setAxes } from '../../src/document/axes';
 import { bare } from '../../src/document/hand_poses';
-import { addFrames, addPoint, setCalibration, setModel } from '../../src/document/commands';
+import { addFrames, addPoint, setCalibration, setModel, withCell } from '../../src/document/commands';
 import { currentRefusal, Store } from '../../src/document/store';
 import { type Axes, cellOf } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
@@ -60,6 +60,30 @@ describe('one click', () => {
     await settle();
     await asked[0]!.answer();
     expect(store.ui.notice?.text).toBe('Femur: Good, the edges lie on the outline.');
+  });
+
+  it('takes back what it said of a pose as soon as that has another verdict, and nothing that was said since', async () => {
+    const { store, asked, click, tell } = bench();
+    store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: 1 });
+    const candidates = [bare({ x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 })];
+    tell({ match: { candidates, reason: 'r', decided: true, refusal: null, verdict: { word: 'doubtful', because: 'another pose fits as well' } } as never });
+    const judge = (word: 'good' | 'doubtful' | null) =>
+      store.amend((doc) => {
+        const cell = cellOf(doc, 'f', 'femur');
+        if (cell.result?.kind !== 'posed') throw new Error('no pose');
+        return withCell(doc, { frameId: 'f', component: 'femur' }, { ...cell, result: { ...cell.result, verdict: word && { word, because: 'b' } } });
+      });
+    for (const spoken of ['Femur: Doubtful, another pose fits as well.', 'Something else.']) {
+      click(1);
+      await settle();
+      await asked.at(-1)!.answer();
+      if (spoken === 'Something else.') store.say('info', spoken);
+      judge(null);
+      judge('doubtful');
+      expect(store.ui.notice?.text).toBe(spoken);
+      judge('good');
+      expect(store.ui.notice?.text).toBe(spoken === 'Something else.' ? spoken : undefined);
+    }
   });
 
   it('asks first for the unit of the model where that is open, as soon as nothing is found', async () => {
@@ -139,7 +163,7 @@ describe('one click', () => {
     expect(outlineOf('tibia')).toBeNull();
   });
 
-  it('what was refused stands in the cell, too, until that changes', async () => {
+  it('what was refused stands in the cell, too, until that or its model changes', async () => {
     const { store, click } = bench();
     store.perform(setCalibration(null));
     click(1);
@@ -151,6 +175,14 @@ describe('one click', () => {
     expect(currentRefusal(store.state)).toBeNull();
     store.selectComponent('femur');
     store.quiet();
+    expect(currentRefusal(store.state)).toMatch(/needs a calibration/);
+    store.perform(setModel('tibia', { name: 'm', sha256: 'other' }));
+    expect(currentRefusal(store.state)).toMatch(/needs a calibration/);
+    store.perform(setModel('femur', { name: 'm_mm.stl', sha256: 'written again' }));
+    expect(currentRefusal(store.state)).toBeNull();
+    click(1);
+    await settle();
+    await settle();
     expect(currentRefusal(store.state)).toMatch(/needs a calibration/);
     store.perform(addPoint({ frameId: store.doc.frames[0]!.id, component: 'femur' }, framePoint(1, 1)));
     expect(currentRefusal(store.state)).toBeNull();

@@ -21,6 +21,8 @@ pub(super) const SHUTTER_CORNERS: u32 = 0x0018_1620;
 pub(super) const SCANNED_SPACING: u32 = 0x0018_2010;
 pub(super) const FRAME_BEGUN: u32 = 0x0018_9074;
 pub(super) const SOURCE_TO_ISOCENTRE: u32 = 0x0018_9402;
+/// The place of a picture in its series, from 1.
+pub(super) const INSTANCE_NUMBER: u32 = 0x0020_0013;
 pub(super) const SAMPLES_PER_PIXEL: u32 = 0x0028_0002;
 pub(super) const PHOTOMETRIC: u32 = 0x0028_0004;
 pub(super) const PLANAR: u32 = 0x0028_0006;
@@ -47,7 +49,7 @@ pub(super) const MODALITY_TABLE: u32 = 0x0028_3000;
 pub(super) const TABLE_ENTRIES: u32 = 0x0028_3006;
 
 /// How a value is written where the file does not say it: files without representations, and elements called unknown.
-const WANTED: [(u32, [u8; 2]); 45] = [
+const WANTED: [(u32, [u8; 2]); 46] = [
     (RECOMMENDED_RATE, *b"IS"),
     (CINE_RATE, *b"IS"),
     (FRAME_TIME, *b"DS"),
@@ -67,6 +69,7 @@ const WANTED: [(u32, [u8; 2]); 45] = [
     (SCANNED_SPACING, *b"DS"),
     (FRAME_BEGUN, *b"DT"),
     (SOURCE_TO_ISOCENTRE, *b"FL"),
+    (INSTANCE_NUMBER, *b"IS"),
     (SAMPLES_PER_PIXEL, *b"US"),
     (PHOTOMETRIC, *b"CS"),
     (PLANAR, *b"US"),

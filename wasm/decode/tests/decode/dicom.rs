@@ -3,6 +3,7 @@
 mod coded;
 mod groups;
 mod pixels;
+mod place;
 mod rate;
 mod refused;
 mod shown;

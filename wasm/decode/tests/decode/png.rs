@@ -1,3 +1,4 @@
+use fluoropose_decode::FrameFile;
 use png::{BitDepth, ColorType};
 
 use crate::samples::{bytes_of, only_frame, pattern, png, png_with, words_of};
@@ -92,4 +93,30 @@ fn a_palette_is_looked_up() {
         },
     );
     assert_eq!(bytes_of(&only_frame(&file, "")), [76, 0, 255]);
+}
+
+/// Whichever byte is broken: what is said is of words, and shows no fields of the decoder's.
+#[test]
+fn damage_is_told_in_words() {
+    let sound = png(
+        13,
+        7,
+        ColorType::Grayscale,
+        BitDepth::Eight,
+        &pattern(13, 7),
+    );
+    let mut told = std::collections::BTreeSet::new();
+    for at in 8..sound.len() {
+        let mut broken = sound.clone();
+        broken[at] ^= 0x5A;
+        let frame = FrameFile::open(broken, "a.png").and_then(|file| file.frame(0));
+        if let Err(error) = frame {
+            told.insert(error.to_string());
+        }
+    }
+    assert!(told.len() > 2, "{told:?}");
+    assert!(
+        told.iter().all(|words| !words.contains(['{', '}'])),
+        "{told:#?}"
+    );
 }

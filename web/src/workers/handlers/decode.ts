@@ -58,7 +58,7 @@ async function opened(blob: Blob, name: string): Promise<FrameFile> {
 function taken(file: FrameFile, index: number): DecodedFrame {
   const raw = file.frame(index);
   try {
-    return copied(raw, file.framesPerSecond ?? null);
+    return copied(raw, { rate: file.framesPerSecond ?? null, place: file.instanceNumber ?? null });
   } finally {
     raw.free();
   }
@@ -73,7 +73,7 @@ async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Prom
   }
 }
 
-function copied(raw: RawFrame, rate: number | null): DecodedFrame {
+function copied(raw: RawFrame, ofFile: OfFile): DecodedFrame {
   const { width, height, windowCentre: centre, windowWidth, notes } = raw;
   const stated = centre !== undefined && windowWidth !== undefined;
   // The pixels that it covers are others then.
@@ -85,11 +85,13 @@ function copied(raw: RawFrame, rate: number | null): DecodedFrame {
     pixels: raw.pixels as DecodedFrame['pixels'],
     window: stated ? { centre, width: windowWidth } : null,
     notes,
-    geometry: geometryOf(raw, rate),
+    geometry: geometryOf(raw, ofFile),
   };
 }
 
-function geometryOf(raw: RawFrame, rate: number | null): StatedGeometry {
+type OfFile = Pick<StatedGeometry, 'rate' | 'place'>;
+
+function geometryOf(raw: RawFrame, ofFile: OfFile): StatedGeometry {
   const { columnSpacingMm, rowSpacingMm, pixelSpacingCalibration } = raw;
   return {
     detectorSpacing: pairOf([columnSpacingMm, rowSpacingMm]),
@@ -100,7 +102,7 @@ function geometryOf(raw: RawFrame, rate: number | null): StatedGeometry {
     sourceToPatient: raw.sourceToPatientMm ?? null,
     sourceToIsocentre: raw.sourceToIsocentreMm ?? null,
     magnification: raw.magnification ?? null,
-    rate,
+    ...ofFile,
   };
 }
 

@@ -30,6 +30,8 @@ export interface StatedGeometry {
   readonly magnification: number | null;
   /** Frames a second. */
   readonly rate: number | null;
+  /** The file's place among those of its series. */
+  readonly place: number | null;
 }
 
 export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'study' | 'video' | 'unknown';

@@ -1,0 +1,9 @@
+/** What is said when files come, by what comes with them. */
+export const opening = {
+  archive: 'this is an archive, which the page does not look into: unpack it, and open the folder',
+  otherOrder: (byName: string, byPlace: string) =>
+    `Frames stand by the names of their files, which state another order (Instance Number): ${byName} is first by name, ${byPlace} by number. Which is that of time?`,
+  take: 'Order by number',
+  taken: (first: string) => `The frames stand by the numbers in their files; ${first} is first. The commands go by names: rename the files for them.`,
+  step: 'order the frames by number',
+};
