@@ -3,7 +3,6 @@ import { currentFrame, type State } from '../document/store';
 import { jointAskedIn, trustOf } from '../results/motion';
 import { asSentence } from '../texts/sentences';
 import { formatNumber, plusMinus } from '../texts/numbers';
-import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 
 const ANGLES = ['flexion', 'abduction', 'internal_rotation'] as const;
