@@ -57,7 +57,7 @@ impl OwnedModel {
                 None => ": is it in the unit that was stated?",
             };
             remarks.push(format!(
-                "the model is {width:.3} across, which is no knee component's size in millimetres{unit} Write it again in millimetres, or every length is wrong"
+                "the model is {width:.3} mm across, which is no knee component's size in millimetres{unit} Write it again in millimetres, or every length is wrong"
             ));
         }
         remarks
