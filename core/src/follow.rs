@@ -116,6 +116,7 @@ pub use settling::{Settling, SettlingStep};
 pub use side_margin::SideMargin;
 pub use side_samples::{SideSample, frames_for_sides, runs_to_go_over};
 pub use sides::{KneeFigures, Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
+pub use starts::Starts;
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};

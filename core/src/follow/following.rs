@@ -167,7 +167,8 @@ impl Following {
     ) -> Result<Option<FramePose>, RefineError> {
         let task = match self.tasks.front_mut() {
             Some(task @ (Task::Walk(_) | Task::Span(_) | Task::Crossing(_))) => {
-                return Ok(task.go_on(subject, image, &self.middle, memory));
+                let known = (&self.middle, &mut self.settling);
+                return Ok(task.go_on(subject, image, known, memory));
             }
             // The answer of a search comes by another way.
             None | Some(Task::Search { .. }) => return Ok(None),

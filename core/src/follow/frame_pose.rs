@@ -3,8 +3,8 @@
 use super::contrast::{Contrast, contrast};
 use super::subject::Subject;
 use crate::math::sqrt;
-use crate::pose::covariance::PoseCovariance;
 use crate::pose::Pose;
+use crate::pose::covariance::PoseCovariance;
 use crate::refine::{
     CameraView, Effort, Ended, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
     Unless, assess, correct_unless, fit_at, refine,

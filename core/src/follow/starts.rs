@@ -14,7 +14,8 @@ use crate::refine::{Ended, ImageTarget, RefineMemory, Unless};
 const KEPT: usize = 32;
 
 /// Starts in one frame, one after the other.
-pub(super) struct Starts<'s> {
+#[derive(Debug)]
+pub struct Starts<'s> {
     subject: &'s Subject<'s>,
     image: &'s ImageTarget<'s>,
     /// Poses where starts have ended, and those that were known before.
@@ -22,7 +23,9 @@ pub(super) struct Starts<'s> {
 }
 
 impl<'s> Starts<'s> {
-    pub(super) fn new(subject: &'s Subject<'s>, image: &'s ImageTarget<'s>) -> Self {
+    /// In a frame, before the first start.
+    #[must_use]
+    pub fn new(subject: &'s Subject<'s>, image: &'s ImageTarget<'s>) -> Self {
         Self {
             subject,
             image,
@@ -37,7 +40,7 @@ impl<'s> Starts<'s> {
     }
 
     /// The pose that a start leads to; `None` where that is known, and where nothing is found.
-    pub(super) fn lead(
+    pub fn lead(
         &mut self,
         start: (&Pose, From),
         memory: &mut RefineMemory<'_>,
@@ -46,7 +49,7 @@ impl<'s> Starts<'s> {
     }
 
     /// The same where no more than `most_px` remain between outline and edges.
-    pub(super) fn lead_within(
+    pub fn lead_within(
         &mut self,
         most_px: f64,
         start: (&Pose, From),

@@ -88,8 +88,7 @@ impl Problem<'_> {
     /// Whether it is not worth going on after so many looks, the last of which asked for a step.
     fn is_hopeless(&self, all: &Equations, step: &Step, looks: usize) -> bool {
         let loss = all.loss();
-        let is_over =
-            |&(after, times): &_| looks == after && loss > times * self.unless.hopeless;
+        let is_over = |&(after, times): &_| looks == after && loss > times * self.unless.hopeless;
         let is_idle = || {
             let seen_twice = looks >= 2 * FILM_PARTS;
             seen_twice && loss > MORE * self.unless.enough && deviations(all, step) < IDLE
