@@ -96,7 +96,7 @@ impl Search<'_> {
         }
         let start = &self.expected.pose;
         let mut first: Option<FramePose> = None;
-        let mut starts = Starts::new(self.subject, self.image);
+        let starts = Starts::new(self.subject, self.image);
         for from in [From::Near, From::Far] {
             if from == From::Far && self.image.film.is_none() {
                 break;
@@ -112,7 +112,7 @@ impl Search<'_> {
             }
             first = self.better(first, found);
         }
-        let best = self.around(first, &mut starts, missed, memory);
+        let best = self.around(first, &starts, missed, memory);
         match best.filter(|found| self.is_believed(found)) {
             Some(found) => Looked {
                 found: Ok(found),
@@ -143,7 +143,7 @@ impl Search<'_> {
     fn around(
         &self,
         first: Option<FramePose>,
-        starts: &mut Starts<'_>,
+        starts: &Starts<'_>,
         missed: usize,
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {

@@ -19,7 +19,7 @@ pub fn mirrored_pose(
     own: &FramePose,
     memory: &mut RefineMemory<'_>,
 ) -> Option<FramePose> {
-    let mut starts = Starts::new(subject, image).knowing(&[own.pose]);
+    let starts = Starts::new(subject, image).knowing(&[own.pose]);
     let mut best: Option<FramePose> = None;
     for plane in subject.planes {
         let start = mirror_pose(&own.pose, plane);
@@ -31,13 +31,13 @@ pub fn mirrored_pose(
             best = Some(found);
         }
     }
-    best.map(|best| least_along_valley(subject, &mut starts, (&best, own), memory))
+    best.map(|best| least_along_valley(subject, &starts, (&best, own), memory))
 }
 
 /// The pose that leaves least of one and of what starts along what the frame tells least of lead to, but for those that lead to `other`.
 fn least_along_valley(
     subject: &Subject<'_>,
-    starts: &mut Starts<'_>,
+    starts: &Starts<'_>,
     (one, other): (&FramePose, &FramePose),
     memory: &mut RefineMemory<'_>,
 ) -> FramePose {

@@ -120,7 +120,7 @@ impl SecondLook {
         let around = beside(&self.expected, &middle, PART).map(|pose| (pose, From::Near));
         let here = [From::Near, From::Far].map(|from| (self.expected, from));
         let own = self.cost(&self.own, &middle);
-        let mut starts = Starts::new(subject, image).knowing(&[self.own.pose]);
+        let starts = Starts::new(subject, image).knowing(&[self.own.pose]);
         let (mut best, mut least) = (None, own - WORTH);
         for (start, from) in here.into_iter().chain(around) {
             let most_px = self.usual.most_px(least);

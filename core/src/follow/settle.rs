@@ -33,7 +33,7 @@ pub fn settled(
         .flat_map(|part| beside(&found.pose, &middle, part))
         .map(|pose| (pose, From::Near));
     let own = core::iter::once((found.pose, From::Near));
-    let mut starts = Starts::new(subject, image);
+    let starts = Starts::new(subject, image);
     let mut best: Option<FramePose> = None;
     for (start, from) in own.chain(around).chain(far) {
         let most_px = best.map_or(f64::INFINITY, |best| usual.most_px(usual.cost(&best)));

@@ -1,7 +1,7 @@
 //! Starts in one frame, one after the other.
 //!
-//! Most of those beside a pose lead back to it. Where the film is known, one that comes to a pose where another has ended is given up there:
-//! what it would end at is that pose.
+//! Most of those beside a pose lead back to it. Where the film is known, and what leads there is of no use, one that comes to it is given up. Those that
+//! may take its place go all the way, even where another has come to the same minimum: of two ends in one, the better is taken.
 
 use heapless::Vec;
 
@@ -10,16 +10,16 @@ use super::subject::Subject;
 use crate::pose::Pose;
 use crate::refine::{Ended, ImageTarget, RefineMemory, Unless};
 
-/// Poses that are kept; to others starts go all the way.
-const KEPT: usize = 32;
+/// A pose and its mirror image.
+const KNOWN: usize = 2;
 
 /// Starts in one frame, one after the other.
 #[derive(Debug)]
 pub struct Starts<'s> {
     subject: &'s Subject<'s>,
     image: &'s ImageTarget<'s>,
-    /// Poses where starts have ended, and those that were known before.
-    known: Vec<Pose, KEPT>,
+    /// Poses to which no start needs to lead.
+    known: Vec<Pose, KNOWN>,
 }
 
 impl<'s> Starts<'s> {
@@ -33,24 +33,23 @@ impl<'s> Starts<'s> {
         }
     }
 
-    /// The same where poses are known beforehand.
+    /// The same where nothing is to lead to poses that are known; two at most.
     pub(super) fn knowing(mut self, known: &[Pose]) -> Self {
-        known.iter().for_each(|pose| self.keep(pose));
+        for pose in known {
+            // To what there is no room for, starts go all the way.
+            let _ = self.known.push(*pose);
+        }
         self
     }
 
     /// The pose that a start leads to; `None` where that is known, and where nothing is found.
-    pub fn lead(
-        &mut self,
-        start: (&Pose, From),
-        memory: &mut RefineMemory<'_>,
-    ) -> Option<FramePose> {
+    pub fn lead(&self, start: (&Pose, From), memory: &mut RefineMemory<'_>) -> Option<FramePose> {
         self.lead_within(f64::INFINITY, start, memory)
     }
 
     /// The same where no more than `most_px` remain between outline and edges.
     pub fn lead_within(
-        &mut self,
+        &self,
         most_px: f64,
         start: (&Pose, From),
         memory: &mut RefineMemory<'_>,
@@ -60,7 +59,7 @@ impl<'s> Starts<'s> {
 
     /// The same, also given where the way is not gone to its end because what remains is `enough_px` by far.
     pub(super) fn lead_unless(
-        &mut self,
+        &self,
         [most_px, enough_px]: [f64; 2],
         start: (&Pose, From),
         memory: &mut RefineMemory<'_>,
@@ -72,17 +71,9 @@ impl<'s> Starts<'s> {
             known: &self.known,
         };
         let (refined, ended) = refined_unless(unless, subject, image, start, memory).ok()?;
-        if ended == Ended::Itself {
-            self.keep(&refined.pose);
-        }
         if ended == Ended::Known || refined.loss > loss_of(most_px) {
             return None;
         }
         seen(subject, image, &refined, memory).ok()
-    }
-
-    fn keep(&mut self, pose: &Pose) {
-        // Those for which there is no room are found anew.
-        let _ = self.known.push(*pose);
     }
 }
