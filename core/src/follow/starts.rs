@@ -34,7 +34,8 @@ impl<'s> Starts<'s> {
     }
 
     /// The same where nothing is to lead to poses that are known; two at most.
-    pub(super) fn knowing(mut self, known: &[Pose]) -> Self {
+    #[must_use]
+    pub fn knowing(mut self, known: &[Pose]) -> Self {
         for pose in known {
             // To what there is no room for, starts go all the way.
             let _ = self.known.push(*pose);
