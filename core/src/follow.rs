@@ -44,6 +44,7 @@ mod joint_search;
 mod known_femur;
 mod look;
 mod meeting;
+mod mirrored;
 mod motion;
 mod near;
 #[cfg(feature = "alloc")]
@@ -60,6 +61,7 @@ mod settling;
 mod side_margin;
 mod side_samples;
 mod sides;
+mod starts;
 mod state;
 mod subject;
 mod trail;
@@ -82,9 +84,7 @@ pub use false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 pub use film_reading::FilmReading;
 #[cfg(feature = "alloc")]
 pub use following::Following;
-pub use frame_pose::{
-    FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
-};
+pub use frame_pose::{FramePose, From, frame_pose_at, refined_on_frame};
 #[cfg(feature = "alloc")]
 pub use good_frames::{frames_to_ask, good_poses};
 pub use in_joint::{BENDS, InJoint, Limb};
@@ -94,6 +94,7 @@ pub use joint_search::JointSearch;
 pub use known_femur::KnownFemur;
 pub use look::{Looked, Missing, look};
 pub use meeting::{have_met, join_ways};
+pub use mirrored::mirrored_pose;
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
 #[cfg(feature = "alloc")]
@@ -115,6 +116,7 @@ pub use settling::{Settling, SettlingStep};
 pub use side_margin::SideMargin;
 pub use side_samples::{SideSample, frames_for_sides, runs_to_go_over};
 pub use sides::{KneeFigures, Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
+pub use starts::Starts;
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};

@@ -47,6 +47,7 @@ mod samples;
 mod stages;
 mod step;
 mod uncertainty;
+mod unless;
 mod view;
 
 pub use border::BorderPixel;
@@ -70,6 +71,7 @@ pub(crate) use run::correct_unless;
 pub use run::{correct, refine, refine_paced, refine_traced};
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::{Assessment, assess, fit_at, uncertainty};
+pub(crate) use unless::{Ended, Unless};
 #[cfg(not(feature = "frames"))]
 pub use view::NoFrame;
 pub use view::{CameraView, ImageTarget, Polarity, Target};

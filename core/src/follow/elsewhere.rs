@@ -7,8 +7,9 @@
 
 use heapless::Vec;
 
-use super::frame_pose::{FramePose, From, probed, refined_within};
-use super::sides::ELSEWHERE_RATIO;
+use super::frame_pose::{FramePose, From, probed};
+use super::sides::{ELSEWHERE_RATIO, MOST_RATIO};
+use super::starts::Starts;
 use super::subject::Subject;
 use super::valley::along_valley;
 use crate::finder::nearby::about;
@@ -42,10 +43,16 @@ pub fn elsewhere(
     let mut best: Option<FramePose> = None;
     let around = near_elsewhere(subject, image, known().map(|known| &known.pose), memory);
     let valley = along_valley(own.known(), &subject.model.bounds().centre);
+    let mut starts = Starts::new(subject, image).knowing(&[own.pose]);
+    if let Some(mirrored) = mirrored {
+        starts = starts.knowing(&[mirrored.pose]);
+    }
+    // A pose that leaves more than so much says as much as one that leaves that.
+    let enough_px = MOST_RATIO * own.misfit_px;
     for near in around.into_iter().chain(valley) {
         let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
-        let Some(found) = refined_within(most_px, subject, image, (&near, From::Near), memory)
-        else {
+        let limits = [most_px, most_px.min(enough_px)];
+        let Some(found) = starts.lead_unless(limits, (&near, From::Near), memory) else {
             continue;
         };
         let back = known().any(|one| {

@@ -16,9 +16,10 @@ use super::cell::{Anchor, Cell};
 use super::conclude::{KnownBeside, conclude, trusted_middles};
 use super::conclusion::Conclusion;
 use super::elsewhere::elsewhere;
-use super::frame_pose::{FramePose, mirrored_pose};
+use super::frame_pose::FramePose;
 use super::good_frames::{frames_to_ask, good_poses};
 use super::known_femur::KnownFemur;
+use super::mirrored::mirrored_pose;
 use super::search_order::RunsToSearch;
 use super::second_look::SecondLook;
 use super::settling::{Settling, SettlingStep};
@@ -166,7 +167,8 @@ impl Following {
     ) -> Result<Option<FramePose>, RefineError> {
         let task = match self.tasks.front_mut() {
             Some(task @ (Task::Walk(_) | Task::Span(_) | Task::Crossing(_))) => {
-                return Ok(task.go_on(subject, image, &self.middle, memory));
+                let known = (&self.middle, &mut self.settling);
+                return Ok(task.go_on(subject, image, known, memory));
             }
             // The answer of a search comes by another way.
             None | Some(Task::Search { .. }) => return Ok(None),

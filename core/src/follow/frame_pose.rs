@@ -2,14 +2,12 @@
 
 use super::contrast::{Contrast, contrast};
 use super::subject::Subject;
-use super::valley::along_valley;
 use crate::math::sqrt;
-use crate::mesh::mirror::mirror_pose;
+use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
-use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
-    assess, correct_unless, fit_at, refine,
+    CameraView, Effort, Ended, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
+    Unless, assess, correct_unless, fit_at, refine,
 };
 
 /// A pose in a frame, with what the frame says of it.
@@ -32,9 +30,6 @@ pub struct FramePose {
 /// Loss of an outline without any edge near it, square pixels: of the last stage on a frame, Tukey's with 2.5 px.
 const WORST_PX2: f64 = 2.5 * 2.5 / 6.0;
 
-/// Mirror images nearer to their pose than this are the same pose, degrees.
-const SAME_DEG: f64 = 1.0;
-
 impl FramePose {
     /// The pose with its covariance.
     pub(super) fn known(&self) -> (&Pose, Option<&PoseCovariance>) {
@@ -50,7 +45,7 @@ impl FramePose {
 }
 
 /// The robust loss of a misfit, square pixels: half of its square.
-fn loss_of(misfit_px: f64) -> f64 {
+pub(super) fn loss_of(misfit_px: f64) -> f64 {
     misfit_px * misfit_px / 2.0
 }
 
@@ -75,50 +70,40 @@ pub fn refined_on_frame(
     memory: &mut RefineMemory<'_>,
 ) -> Result<FramePose, RefineError> {
     let start = (start, from);
-    let refined = refined_unless(f64::INFINITY, subject, image, start, memory)?;
+    let (refined, _) = refined_unless(Unless::NOTHING, subject, image, start, memory)?;
     seen(subject, image, &refined, memory)
 }
 
-/// The same where no more than `most_px` remain between outline and edges; `None` also where nothing is found. Where the film is known,
-/// what will leave more is given up on the way.
-#[must_use]
-pub fn refined_within(
-    most_px: f64,
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    start: (&Pose, From),
-    memory: &mut RefineMemory<'_>,
-) -> Option<FramePose> {
-    let hopeless = loss_of(most_px);
-    let refined = refined_unless(hopeless, subject, image, start, memory).ok()?;
-    if refined.loss > hopeless {
-        return None;
-    }
-    seen(subject, image, &refined, memory).ok()
-}
-
-fn refined_unless(
-    hopeless: f64,
+/// Where refinement comes from a start, and how it ended: where the film is known, it may be given up on the way.
+///
+/// # Errors
+/// Those of [`refine`].
+pub(super) fn refined_unless(
+    unless: Unless<'_>,
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     (start, from): (&Pose, From),
     memory: &mut RefineMemory<'_>,
-) -> Result<Refined, RefineError> {
+) -> Result<(Refined, Ended), RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
     let (model, options) = (subject.model, subject.options);
     if image.film.is_none() {
-        return refine(model, &views, start, options, memory);
+        let refined = refine(model, &views, start, options, memory)?;
+        return Ok((refined, Ended::Itself));
     }
     let near = match from {
         From::Near => *start,
         From::Far => probed(subject, image, start, memory)?.pose,
     };
     let begun = Refined::at(near);
-    correct_unless(hopeless, model, &views, &begun, options, memory)
+    correct_unless(unless, model, &views, &begun, options, memory)
 }
 
 /// A refined pose, with what the frame says of it.
-fn seen(
+///
+/// # Errors
+/// [`RefineError`] where the model cannot be drawn at the pose.
+pub(super) fn seen(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     refined: &Refined,
@@ -174,44 +159,4 @@ pub fn frame_pose_at(
         misfit_px: fit.misfit_px,
         contrast: contrast(subject, image, pose, memory)?,
     })
-}
-
-/// The best of the poses that the mirror images of a pose lead to; `None` where they lead back to it or nowhere.
-#[must_use]
-pub fn mirrored_pose(
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    own: &FramePose,
-    memory: &mut RefineMemory<'_>,
-) -> Option<FramePose> {
-    let mut best: Option<FramePose> = None;
-    for plane in subject.planes {
-        let start = mirror_pose(&own.pose, plane);
-        let found = refined_on_frame(subject, image, (&start, From::Far), memory);
-        let Ok(found) = found else { continue };
-        let apart = geodesic_deg(&found.pose.rotation, &own.pose.rotation) > SAME_DEG;
-        if apart && best.is_none_or(|best| found.score() > best.score()) {
-            best = Some(found);
-        }
-    }
-    best.map(|best| least_along_valley(subject, image, (&best, own), memory))
-}
-
-/// The pose that leaves least of one and of what starts along what the frame tells least of lead to, but for those that lead to `other`.
-fn least_along_valley(
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    (one, other): (&FramePose, &FramePose),
-    memory: &mut RefineMemory<'_>,
-) -> FramePose {
-    let mut least = *one;
-    for start in along_valley(one.known(), &subject.model.bounds().centre) {
-        let start = (&start, From::Near);
-        let found = refined_within(least.misfit_px, subject, image, start, memory);
-        let off = |found: &FramePose| geodesic_deg(&found.pose.rotation, &other.pose.rotation);
-        if let Some(found) = found.filter(|found| off(found) > SAME_DEG) {
-            least = found;
-        }
-    }
-    least
 }

@@ -1,8 +1,9 @@
 //! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
 
-use super::frame_pose::{FramePose, From, refined_on_frame, refined_within};
+use super::frame_pose::{FramePose, From};
 use super::motion::Expected;
 use super::near::near_poses;
+use super::starts::Starts;
 use super::subject::Subject;
 use super::trail::{Trail, Usual, apart};
 use crate::finder::nearby::about;
@@ -95,12 +96,12 @@ impl Search<'_> {
         }
         let start = &self.expected.pose;
         let mut first: Option<FramePose> = None;
+        let starts = Starts::new(self.subject, self.image);
         for from in [From::Near, From::Far] {
-            let (subject, image) = (self.subject, self.image);
-            if from == From::Far && image.film.is_none() {
+            if from == From::Far && self.image.film.is_none() {
                 break;
             }
-            let found = refined_on_frame(subject, image, (start, from), memory).ok();
+            let found = starts.lead((start, from), memory);
             if let Some(found) = found.filter(|found| self.is_ordinary(found)) {
                 return Looked {
                     found: Ok(found),
@@ -111,7 +112,7 @@ impl Search<'_> {
             }
             first = self.better(first, found);
         }
-        let best = self.around(first, missed, memory);
+        let best = self.around(first, &starts, missed, memory);
         match best.filter(|found| self.is_believed(found)) {
             Some(found) => Looked {
                 found: Ok(found),
@@ -142,6 +143,7 @@ impl Search<'_> {
     fn around(
         &self,
         first: Option<FramePose>,
+        starts: &Starts<'_>,
         missed: usize,
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
@@ -158,7 +160,7 @@ impl Search<'_> {
         // Where the outline has the strongest edges first: most misses are ways in the image plane.
         for (start, from) in near.chain(beside) {
             let most_px = self.most_px(best.as_ref());
-            let found = refined_within(most_px, subject, image, (&start, from), memory);
+            let found = starts.lead_within(most_px, (&start, from), memory);
             best = self.better(best, found);
         }
         best

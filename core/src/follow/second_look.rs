@@ -7,9 +7,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::frame_pose::{FramePose, From, refined_within};
+use super::frame_pose::{FramePose, From};
 use super::look::beside;
 use super::motion::between;
+use super::starts::Starts;
 use super::subject::Subject;
 use super::trail::{Usual, apart};
 use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
@@ -119,10 +120,11 @@ impl SecondLook {
         let around = beside(&self.expected, &middle, PART).map(|pose| (pose, From::Near));
         let here = [From::Near, From::Far].map(|from| (self.expected, from));
         let own = self.cost(&self.own, &middle);
+        let starts = Starts::new(subject, image).knowing(&[self.own.pose]);
         let (mut best, mut least) = (None, own - WORTH);
         for (start, from) in here.into_iter().chain(around) {
             let most_px = self.usual.most_px(least);
-            let Some(one) = refined_within(most_px, subject, image, (&start, from), memory) else {
+            let Some(one) = starts.lead_within(most_px, (&start, from), memory) else {
                 continue;
             };
             let cost = self.cost(&one, &middle);

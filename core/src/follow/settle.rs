@@ -1,9 +1,10 @@
 //! A pose that was found without knowing the film, settled with its constants: the best of what it and those around it lead
 //! to.
 
-use super::frame_pose::{FramePose, From, refined_within};
+use super::frame_pose::{FramePose, From};
 use super::look::beside;
 use super::near::near_poses;
+use super::starts::Starts;
 use super::subject::Subject;
 use super::trail::Usual;
 use crate::refine::{ImageTarget, RefineMemory};
@@ -31,13 +32,12 @@ pub fn settled(
         .into_iter()
         .flat_map(|part| beside(&found.pose, &middle, part))
         .map(|pose| (pose, From::Near));
-    let starts = core::iter::once((found.pose, From::Near))
-        .chain(around)
-        .chain(far);
+    let own = core::iter::once((found.pose, From::Near));
+    let starts = Starts::new(subject, image);
     let mut best: Option<FramePose> = None;
-    for (start, from) in starts {
+    for (start, from) in own.chain(around).chain(far) {
         let most_px = best.map_or(f64::INFINITY, |best| usual.most_px(usual.cost(&best)));
-        let one = refined_within(most_px, subject, image, (&start, from), memory);
+        let one = starts.lead_within(most_px, (&start, from), memory);
         let better = |one: &FramePose| best.is_none_or(|best| usual.cost(one) < usual.cost(&best));
         best = one.filter(better).or(best);
     }

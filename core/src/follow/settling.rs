@@ -12,6 +12,7 @@ use super::crossing::{Crossing, frames_to_cross_from};
 use super::false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 use super::frame_pose::FramePose;
 use super::known_femur::KnownFemur;
+use super::look::Looked;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
 use super::side_margin::SideMargin;
@@ -19,6 +20,7 @@ use super::side_samples::{
     SideSample, evidence_of, first_for_sides, frames_for_sides, runs_to_go_over, tell_between,
 };
 use super::sides::{Rival, SideStep, choose_sides};
+use super::trail::Trail;
 use crate::math::Vector3;
 
 /// So often sides are chosen anew where a way that went over rocks.
@@ -92,6 +94,8 @@ pub struct Settling {
     elsewhere: Vec<SideSample>,
     /// The frames that went over to what was seen elsewhere, as they were before.
     before: Vec<(Range<usize>, Vec<Cell>)>,
+    /// What was seen on ways over jumps: of the way's frame, from its trail. They are crossed more than once, and most trails are as before then.
+    over_jumps: Vec<(usize, Trail, Looked)>,
 }
 
 impl Settling {
@@ -112,7 +116,21 @@ impl Settling {
             choices: Vec::new(),
             elsewhere: Vec::new(),
             before: Vec::new(),
+            over_jumps: Vec::new(),
         }
+    }
+
+    /// What was seen before in the next frame of a way over a jump, where its trail was the same.
+    #[must_use]
+    pub fn seen_over_jump(&self, frame: usize, trail: &Trail) -> Option<Looked> {
+        let mut seen = self.over_jumps.iter();
+        let same = seen.find(|(at, before, _)| *at == frame && before == trail);
+        same.map(|(.., looked)| *looked)
+    }
+
+    /// Keeps what is seen there.
+    pub fn saw_over_jump(&mut self, frame: usize, trail: &Trail, looked: Looked) {
+        self.over_jumps.push((frame, trail.clone(), looked));
     }
 
     /// What is to be done next with the film's `cells`; `None` where all is done.

@@ -74,7 +74,7 @@ impl Usual {
 }
 
 /// The way of a component through a film in one direction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
     last: Known,
     before: Option<Known>,

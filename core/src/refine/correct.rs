@@ -12,6 +12,8 @@ use super::memory::RefineMemory;
 use super::problem::Problem;
 use super::result::{Iterate, Refined};
 use super::stages::{FILM_PARTS, Pass};
+use super::step::Step;
+use super::unless::Ended;
 use crate::math::sqrt;
 use crate::render::RenderError;
 
@@ -20,6 +22,12 @@ const LOOKS: usize = 5 * FILM_PARTS;
 /// Looks after which a correction is given up, and how many times more than what is hopeless at its end its loss is then: each part has
 /// been seen twice, or three times.
 const GIVE_UP: [(usize, f64); 2] = [(2 * FILM_PARTS, 4.0), (3 * FILM_PARTS, 2.0)];
+/// It is also given up where its loss is so many times what is enough and its step is less than so many standard deviations of the pose, after
+/// each part has been seen twice: less than that it hardly becomes.
+const MORE: f64 = 1.1;
+const IDLE: f64 = 0.5;
+/// One that comes nearer to a known pose than this leads there, standard deviations of the pose. At half of one, other minima beside it are some.
+const THERE: f64 = 1.0 / 3.0;
 /// A step of this size is the last: 0.002 degrees or 0.01 mm,
 const SMALL: f64 = 0.002;
 /// or one of so many standard deviations of the pose: what it leaves is a small part of it.
@@ -39,11 +47,10 @@ impl Problem<'_> {
         state: &mut Refined,
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
-    ) -> Result<(), RefineError> {
+    ) -> Result<Ended, RefineError> {
         let mut next = *state;
         let mut parts: [Equations; FILM_PARTS] = core::array::from_fn(|_| Equations::new());
-        // Each part stands for all of them, so that together they seem to tell as many times more.
-        let little = LITTLE * sqrt(FILM_PARTS as f64);
+        let mut ended = Ended::Itself;
         next.converged = false;
         for turn in 0..LOOKS {
             let part = &mut parts[turn % FILM_PARTS];
@@ -57,12 +64,16 @@ impl Problem<'_> {
             for part in &mut parts {
                 part.follow(&step, more);
             }
-            let has_all = turn + 1 >= FILM_PARTS;
-            next.converged = has_all && (step.size() < SMALL || all.deviations(&step) < little);
-            let is_over =
-                |&(after, times): &_| turn + 1 == after && all.loss() > times * self.hopeless;
-            let hopeless = GIVE_UP.iter().any(is_over);
-            if next.converged || hopeless {
+            if turn + 1 < FILM_PARTS {
+                continue;
+            }
+            next.converged = step.size() < SMALL || deviations(&all, &step) < LITTLE;
+            ended = match self.is_hopeless(&all, &step, turn + 1) {
+                true => Ended::Hopeless,
+                false if self.is_there(&all, &next) => Ended::Known,
+                false => Ended::Itself,
+            };
+            if next.converged || ended != Ended::Itself {
                 break;
             }
         }
@@ -71,7 +82,27 @@ impl Problem<'_> {
         all.report(&mut next);
         trace(&all.iterate(pass, &next));
         *state = next;
-        Ok(())
+        Ok(ended)
+    }
+
+    /// Whether it is not worth going on after so many looks, the last of which asked for a step.
+    fn is_hopeless(&self, all: &Equations, step: &Step, looks: usize) -> bool {
+        let loss = all.loss();
+        let is_over = |&(after, times): &_| looks == after && loss > times * self.unless.hopeless;
+        let is_idle = || {
+            let seen_twice = looks >= 2 * FILM_PARTS;
+            seen_twice && loss > MORE * self.unless.enough && deviations(all, step) < IDLE
+        };
+        GIVE_UP.iter().any(is_over) || is_idle()
+    }
+
+    /// Whether it has come to a pose that is known.
+    fn is_there(&self, all: &Equations, state: &Refined) -> bool {
+        let mut known = self.unless.known.iter();
+        known.any(|pose| {
+            let step = Step::between(&state.pose, pose, &self.middle);
+            deviations(all, &step) < THERE
+        })
     }
 
     /// What a part of the border pixels sees; a smaller one where there is not room for as many lines.
@@ -100,6 +131,11 @@ impl Problem<'_> {
         };
         seen.map(drop)
     }
+}
+
+/// Size of a step in standard deviations of the pose. Each part stands for all of them, so that together they seem to tell as many times more.
+fn deviations(all: &Equations, step: &Step) -> f64 {
+    all.deviations(step) / sqrt(FILM_PARTS as f64)
 }
 
 fn joined(parts: &[Equations]) -> Equations {

@@ -13,6 +13,7 @@ use super::outline::{Depth, Sampling};
 use super::result::Refined;
 use super::stages::{Pass, STAGES, Stage};
 use super::step::Step;
+use super::unless::Unless;
 use super::view::{CameraView, Target};
 use crate::image::mask::MaskError;
 use crate::math::{Vector3, within};
@@ -31,8 +32,8 @@ pub(super) struct Problem<'a> {
     pub(super) effort: Effort,
     /// Poses from which it is known where they lead.
     pub(super) known: Option<&'a dyn Fn(&Pose) -> bool>,
-    /// Loss of a correction, square pixels, above which it is given up.
-    pub(super) hopeless: f64,
+    /// What a correction is given up for.
+    pub(super) unless: Unless<'a>,
 }
 
 /// # Errors
@@ -97,7 +98,7 @@ impl<'a> Problem<'a> {
             hold: None,
             effort: Effort::Full,
             known: None,
-            hopeless: f64::INFINITY,
+            unless: Unless::NOTHING,
         }
     }
 

@@ -10,6 +10,7 @@ use super::problem::Problem;
 use super::refinement::Refinement;
 use super::result::{Iterate, Refined};
 use super::stages::{Pass, STAGES};
+use super::unless::{Ended, Unless};
 use super::view::CameraView;
 use crate::mesh::Model;
 use crate::pace::{Pace, in_slices, to_the_end};
@@ -83,26 +84,26 @@ pub fn correct(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Refined, RefineError> {
-    correct_unless(f64::INFINITY, model, views, refined, options, memory)
+    let corrected = correct_unless(Unless::NOTHING, model, views, refined, options, memory);
+    corrected.map(|(refined, _)| refined)
 }
 
-/// As [`correct`], but given up on the way where a loss is so large that it is not likely to fall below `hopeless`, square pixels.
+/// As [`correct`], but given up on the way where nothing hangs on its end; also gives how it ended.
 ///
 /// # Errors
 /// [`RefineError`].
 pub(crate) fn correct_unless(
-    hopeless: f64,
+    unless: Unless<'_>,
     model: &Model<'_>,
     views: &[CameraView<'_>],
     refined: &Refined,
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
-) -> Result<Refined, RefineError> {
+) -> Result<(Refined, Ended), RefineError> {
     let mut problem = Problem::new(model, views, memory)?;
     problem.hold(options.locks, &refined.pose);
-    problem.effort = options.effort;
-    problem.hopeless = hopeless;
-    let mut state = *refined;
+    (problem.effort, problem.unless) = (options.effort, unless);
+    let (mut state, mut ended) = (*refined, Ended::Itself);
     if problem.has_film() {
         let pass = Pass {
             index: STAGES - 1,
@@ -110,7 +111,7 @@ pub(crate) fn correct_unless(
             drawn: true,
             ..Pass::default()
         };
-        problem.correct(&pass, &mut state, memory, &mut |_| ())?;
+        ended = problem.correct(&pass, &mut state, memory, &mut |_| ())?;
     }
-    Ok(state)
+    Ok((state, ended))
 }

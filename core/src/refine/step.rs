@@ -1,6 +1,9 @@
 //! A small motion of the model.
 
-use crate::math::{Vector3, add, apply, degrees, multiply, norm, rotation_by, scale, subtract};
+use crate::math::{
+    Vector3, add, apply, degrees, multiply, norm, rotation_by, rotation_vector, scale, subtract,
+    transpose,
+};
 use crate::pose::Pose;
 
 /// A small motion: turn about the middle of the model (radians, camera axes), then shift (mm).
@@ -16,6 +19,15 @@ impl Step {
         Self {
             turn: [a, b, c],
             shift: [x, y, z],
+        }
+    }
+
+    /// The one that leads from a pose to another; `middle` is as of [`Self::apply`].
+    pub(super) fn between(from: &Pose, to: &Pose, middle: &Vector3) -> Self {
+        let turn = multiply(&to.rotation, &transpose(&from.rotation));
+        Self {
+            turn: rotation_vector(&turn),
+            shift: subtract(&to.transform(middle), &from.transform(middle)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use fluoropose::film::{FilmConstants, FilmModel};
 use fluoropose::finder::{Candidate, correct_candidates};
-use fluoropose::follow::{Anchor, From, Subject, frame_pose_at, refined_on_frame, refined_within};
+use fluoropose::follow::{Anchor, From, Starts, Subject, frame_pose_at, refined_on_frame};
 use fluoropose::image::frame::Frame;
 use fluoropose::math::{add, apply, multiply, radians, rotation_by, subtract};
 use fluoropose::mesh::mirror::mirror_pose;
@@ -128,10 +128,10 @@ fn what_is_given_up_on_the_way_would_have_left_more() {
         let start = moved(&truth, &middle, [deg * cos, deg * sin], [0.0; 3]);
         let start = (&start, From::Near);
         let whole = refined_on_frame(&subject, &image, start, &mut memory).expect("refined");
-        let any = refined_within(f64::INFINITY, &subject, &image, start, &mut memory);
+        let any = Starts::new(&subject, &image).lead(start, &mut memory);
         assert_eq!(any, Some(whole));
         let most_px = 1.5 * usual;
-        let within = refined_within(most_px, &subject, &image, start, &mut memory);
+        let within = Starts::new(&subject, &image).lead_within(most_px, start, &mut memory);
         match whole.misfit_px <= most_px {
             true => assert_eq!(within, Some(whole), "{deg} degrees"),
             false => assert_eq!(within, None, "{deg} degrees"),
@@ -143,4 +143,42 @@ fn what_is_given_up_on_the_way_would_have_left_more() {
         }) += 1;
     }
     assert!(kept > 3 && left > 3, "{kept} {left}");
+}
+
+/// The naive way is to go to the end from each start.
+#[test]
+fn what_is_given_up_at_a_known_pose_would_have_ended_there() {
+    let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
+    let model = model.as_model();
+    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let frame = frame.expect("fits");
+    let image = shown(&frame);
+    let subject = Subject::new(&model, &[], &camera);
+    let mut buffers = RefineBuffers::default();
+    let mut memory = buffers.borrow(&model, &camera);
+    let (truth, middle) = (Pose::from(TRUE), model.bounds().centre);
+    let own = refined_on_frame(&subject, &image, (&truth, From::Near), &mut memory);
+    let own = own.expect("refined");
+    let covariance = own.covariance.expect("determined");
+    let starts = Starts::new(&subject, &image).knowing(&[own.pose]);
+    let (mut back, mut on) = (0, 0);
+    for (turn, deg) in (0..6).flat_map(|turn| [1.0, 3.0, 6.0].map(|deg| (turn, deg))) {
+        let (sin, cos) = f64::from(turn).sin_cos();
+        let start = moved(&truth, &middle, [deg * cos, deg * sin], [0.0; 3]);
+        let start = (&start, From::Near);
+        let whole = refined_on_frame(&subject, &image, start, &mut memory).expect("refined");
+        match starts.lead(start, &mut memory) {
+            // The same bits.
+            Some(one) => {
+                assert_eq!(one, whole, "{deg} degrees");
+                on += 1;
+            }
+            None => {
+                let is_there = covariance.holds(&own.pose, &whole.pose, &middle, 0.6 * 0.6);
+                assert_eq!(is_there, Some(true), "{deg} degrees");
+                back += 1;
+            }
+        }
+    }
+    assert!(back > 5 && on > 1, "{back} {on}");
 }

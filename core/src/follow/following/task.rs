@@ -12,6 +12,7 @@ use crate::follow::look::{Looked, look};
 use crate::follow::meeting::{have_met, join_ways};
 use crate::follow::second_look::SecondLook;
 use crate::follow::settle::settled;
+use crate::follow::settling::Settling;
 use crate::follow::subject::Subject;
 use crate::follow::way::Way;
 use crate::math::Vector3;
@@ -73,11 +74,20 @@ impl Task {
         &mut self,
         subject: &Subject<'_>,
         image: &ImageTarget<'_>,
-        middle: &Vector3,
+        (middle, settling): (&Vector3, &mut Settling),
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
         let (way, which, frame) = self.next()?;
-        let looked = look(subject, image, frame, way.trail(), memory);
+        let trail = way.trail();
+        let mut see = || look(subject, image, frame, trail, memory);
+        let looked = match self {
+            Self::Crossing(_) => settling.seen_over_jump(frame, trail).unwrap_or_else(|| {
+                let looked = see();
+                settling.saw_over_jump(frame, trail, looked);
+                looked
+            }),
+            _ => see(),
+        };
         match self {
             Self::Walk(walk) => walk.saw(frame, looked, middle),
             Self::Span(span) => span.saw(which, frame, looked, middle),

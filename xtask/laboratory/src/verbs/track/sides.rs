@@ -24,7 +24,7 @@ pub(super) fn up_to_a_choice(
 ) -> Result<bool> {
     while let Some(step) = settling.next(cells) {
         match step {
-            SettlingStep::Cross(crossing) => cross(run, part, *crossing, cells)?,
+            SettlingStep::Cross(crossing) => cross(run, part, *crossing, (settling, cells))?,
             SettlingStep::See(rival, frames) => {
                 for sample in seen(run, part, cells, (rival, &frames), settling)? {
                     settling.saw(sample);
@@ -75,7 +75,12 @@ fn tell(run: &Run<'_>, part: &Part<'_>, femur: Option<&KnownFemur>, settling: &S
 }
 
 /// Follows the frames on one side of a jump from the other side.
-fn cross(run: &Run<'_>, part: &Part<'_>, mut crossing: Crossing, cells: &mut [Cell]) -> Result<()> {
+fn cross(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    mut crossing: Crossing,
+    (settling, cells): (&mut Settling, &mut [Cell]),
+) -> Result<()> {
     let middle = part.middle();
     let mut bits = 0;
     while let Some(frame) = crossing.next() {
@@ -83,16 +88,21 @@ fn cross(run: &Run<'_>, part: &Part<'_>, mut crossing: Crossing, cells: &mut [Ce
         let expected = trail.expect(frame, &middle).pose.rotation;
         bits = bits_of(expected.into_iter().flatten().chain([f64::from_bits(bits)]));
         let key = format!("cross/{}/{}/{frame}/{bits:x}", part.number, part.phase());
-        let looked: Looked = run.step(
-            (part, frame),
-            "followed from the other side of a jump",
-            &key,
-            || {
-                part.see(run.film, frame, |subject, image, memory| {
-                    look(subject, image, frame, trail, memory)
-                })
-            },
-        )?;
+        let look = || {
+            part.see(run.film, frame, |subject, image, memory| {
+                look(subject, image, frame, trail, memory)
+            })
+        };
+        let looked: Looked = match settling.seen_over_jump(frame, trail) {
+            Some(looked) => looked,
+            None => run.step(
+                (part, frame),
+                "followed from the other side of a jump",
+                &key,
+                look,
+            )?,
+        };
+        settling.saw_over_jump(frame, trail, looked);
         crossing.saw(frame, looked, (&middle, &part.planes));
     }
     crossing.write(cells);

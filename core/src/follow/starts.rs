@@ -1,0 +1,80 @@
+//! Starts in one frame, one after the other.
+//!
+//! Most of those beside a pose lead back to it. Where the film is known, and what leads there is of no use, one that comes to it is given up. Those that
+//! may take its place go all the way, even where another has come to the same minimum: of two ends in one, the better is taken.
+
+use heapless::Vec;
+
+use super::frame_pose::{FramePose, From, loss_of, refined_unless, seen};
+use super::subject::Subject;
+use crate::pose::Pose;
+use crate::refine::{Ended, ImageTarget, RefineMemory, Unless};
+
+/// A pose and its mirror image.
+const KNOWN: usize = 2;
+
+/// Starts in one frame, one after the other.
+#[derive(Debug)]
+pub struct Starts<'s> {
+    subject: &'s Subject<'s>,
+    image: &'s ImageTarget<'s>,
+    /// Poses to which no start needs to lead.
+    known: Vec<Pose, KNOWN>,
+}
+
+impl<'s> Starts<'s> {
+    /// In a frame, before the first start.
+    #[must_use]
+    pub fn new(subject: &'s Subject<'s>, image: &'s ImageTarget<'s>) -> Self {
+        Self {
+            subject,
+            image,
+            known: Vec::new(),
+        }
+    }
+
+    /// The same where nothing is to lead to poses that are known; two at most.
+    #[must_use]
+    pub fn knowing(mut self, known: &[Pose]) -> Self {
+        for pose in known {
+            // To what there is no room for, starts go all the way.
+            let _ = self.known.push(*pose);
+        }
+        self
+    }
+
+    /// The pose that a start leads to; `None` where that is known, and where nothing is found.
+    pub fn lead(&self, start: (&Pose, From), memory: &mut RefineMemory<'_>) -> Option<FramePose> {
+        self.lead_within(f64::INFINITY, start, memory)
+    }
+
+    /// The same where no more than `most_px` remain between outline and edges.
+    pub fn lead_within(
+        &self,
+        most_px: f64,
+        start: (&Pose, From),
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        self.lead_unless([most_px; 2], start, memory)
+    }
+
+    /// The same, also given where the way is not gone to its end because what remains is `enough_px` by far.
+    pub(super) fn lead_unless(
+        &self,
+        [most_px, enough_px]: [f64; 2],
+        start: (&Pose, From),
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let (subject, image) = (self.subject, self.image);
+        let unless = Unless {
+            hopeless: loss_of(most_px),
+            enough: loss_of(enough_px),
+            known: &self.known,
+        };
+        let (refined, ended) = refined_unless(unless, subject, image, start, memory).ok()?;
+        if ended == Ended::Known || refined.loss > loss_of(most_px) {
+            return None;
+        }
+        seen(subject, image, &refined, memory).ok()
+    }
+}
