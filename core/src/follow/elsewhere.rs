@@ -8,7 +8,7 @@
 use heapless::Vec;
 
 use super::frame_pose::{FramePose, From, probed};
-use super::sides::{ELSEWHERE_RATIO, MOST_RATIO};
+use super::sides::ELSEWHERE_RATIO;
 use super::starts::Starts;
 use super::subject::Subject;
 use super::valley::along_valley;
@@ -47,12 +47,9 @@ pub fn elsewhere(
     if let Some(mirrored) = mirrored {
         starts = starts.knowing(&[mirrored.pose]);
     }
-    // A pose that leaves more than so much says as much as one that leaves that.
-    let enough_px = MOST_RATIO * own.misfit_px;
     for near in around.into_iter().chain(valley) {
         let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
-        let limits = [most_px, most_px.min(enough_px)];
-        let Some(found) = starts.lead_unless(limits, (&near, From::Near), memory) else {
+        let Some(found) = starts.lead_within(most_px, (&near, From::Near), memory) else {
             continue;
         };
         let back = known().any(|one| {

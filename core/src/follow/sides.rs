@@ -104,10 +104,8 @@ const JUMP: f64 = 0.5;
 pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 /// What residuals say that decide nothing by themselves.
 const HINT: f64 = 0.25;
-/// The most that one frame says,
+/// The most that one frame says.
 pub(super) const MOST: f64 = 2.0;
-/// and so many times the misfit says it, of another minimum: twice what tells by itself.
-pub(super) const MOST_RATIO: f64 = ELSEWHERE_RATIO * ELSEWHERE_RATIO;
 
 impl SideStep {
     /// What speaks for the trail, as far as it speaks for what was chosen.

@@ -55,20 +55,9 @@ impl<'s> Starts<'s> {
         start: (&Pose, From),
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
-        self.lead_unless([most_px; 2], start, memory)
-    }
-
-    /// The same, also given where the way is not gone to its end because what remains is `enough_px` by far.
-    pub(super) fn lead_unless(
-        &self,
-        [most_px, enough_px]: [f64; 2],
-        start: (&Pose, From),
-        memory: &mut RefineMemory<'_>,
-    ) -> Option<FramePose> {
         let (subject, image) = (self.subject, self.image);
         let unless = Unless {
             hopeless: loss_of(most_px),
-            enough: loss_of(enough_px),
             known: &self.known,
         };
         let (refined, ended) = refined_unless(unless, subject, image, start, memory).ok()?;

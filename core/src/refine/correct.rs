@@ -22,10 +22,6 @@ const LOOKS: usize = 5 * FILM_PARTS;
 /// Looks after which a correction is given up, and how many times more than what is hopeless at its end its loss is then: each part has
 /// been seen twice, or three times.
 const GIVE_UP: [(usize, f64); 2] = [(2 * FILM_PARTS, 4.0), (3 * FILM_PARTS, 2.0)];
-/// It is also given up where its loss is so many times what is enough and its step is less than so many standard deviations of the pose, after
-/// each part has been seen twice: less than that it hardly becomes.
-const MORE: f64 = 1.1;
-const IDLE: f64 = 0.5;
 /// One that comes nearer to a known pose than this leads there, standard deviations of the pose. At half of one, other minima beside it are some.
 const THERE: f64 = 1.0 / 3.0;
 /// A step of this size is the last: 0.002 degrees or 0.01 mm,
@@ -68,7 +64,7 @@ impl Problem<'_> {
                 continue;
             }
             next.converged = step.size() < SMALL || deviations(&all, &step) < LITTLE;
-            ended = match self.is_hopeless(&all, &step, turn + 1) {
+            ended = match self.is_hopeless(all.loss(), turn + 1) {
                 true => Ended::Hopeless,
                 false if self.is_there(&all, &next) => Ended::Known,
                 false => Ended::Itself,
@@ -85,15 +81,10 @@ impl Problem<'_> {
         Ok(ended)
     }
 
-    /// Whether it is not worth going on after so many looks, the last of which asked for a step.
-    fn is_hopeless(&self, all: &Equations, step: &Step, looks: usize) -> bool {
-        let loss = all.loss();
-        let is_over = |&(after, times): &_| looks == after && loss > times * self.unless.hopeless;
-        let is_idle = || {
-            let seen_twice = looks >= 2 * FILM_PARTS;
-            seen_twice && loss > MORE * self.unless.enough && deviations(all, step) < IDLE
-        };
-        GIVE_UP.iter().any(is_over) || is_idle()
+    /// Whether it is not worth going on after so many looks.
+    fn is_hopeless(&self, loss: f64, looks: usize) -> bool {
+        let mut limits = GIVE_UP.iter();
+        limits.any(|&(after, times)| looks == after && loss > times * self.unless.hopeless)
     }
 
     /// Whether it has come to a pose that is known.

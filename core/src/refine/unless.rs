@@ -7,8 +7,6 @@ use crate::pose::Pose;
 pub(crate) struct Unless<'u> {
     /// Loss, square pixels: what is so far above it that it is not likely to fall below.
     pub(crate) hopeless: f64,
-    /// Loss, square pixels, of which more is as much: what is above it and hardly moves any more.
-    pub(crate) enough: f64,
     /// Poses to which others have led: what comes to one of them.
     pub(crate) known: &'u [Pose],
 }
@@ -17,7 +15,6 @@ impl Unless<'_> {
     /// For nothing.
     pub(crate) const NOTHING: Self = Self {
         hopeless: f64::INFINITY,
-        enough: f64::INFINITY,
         known: &[],
     };
 }
