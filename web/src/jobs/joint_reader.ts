@@ -61,7 +61,7 @@ export class JointReader {
   rowOf(frameId: string): ReadonlyMap<string, number> | null {
     const here = this.#here(frameId);
     if (!here || here.known.impossible !== null) return null;
-    return new Map(here.columns.map((name, at) => [name, here.known.row[at] ?? NaN]));
+    return new Map(here.facts.columns.map((name, at) => [name, here.known.row[at] ?? NaN]));
   }
 
   /** Why no knee has the numbers of one frame, a sentence without its full stop; null where one may have them, or they are not known. */
@@ -69,16 +69,16 @@ export class JointReader {
     return this.#here(frameId)?.known.impossible ?? null;
   }
 
-  #here(frameId: string): { readonly known: Known; readonly columns: readonly string[] } | null {
+  /** What the femur's flange says of the side of the body, where it tells the other one; null while the numbers of this frame are not known. */
+  otherSideIn(frameId: string): string | null {
+    return this.#here(frameId)?.facts.otherSide ?? null;
+  }
+
+  #here(frameId: string): { readonly known: Known; readonly facts: JointFacts } | null {
     const asked = jointAskedIn(this.#services.store.doc, frameId);
     const known = this.#known.get(frameId);
     if (!asked || !known || !this.#open || this.#key !== keyOf(asked) || this.#missing(asked).length > 0) return null;
-    return { known, columns: this.#open.facts.columns };
-  }
-
-  /** What the femur's flange says of the side of the body, where it tells the other one. */
-  get otherSide(): string | null {
-    return this.numbers.otherSide;
+    return { known, facts: this.#open.facts };
   }
 
   /** Works the numbers of one frame out, if they are not known and nothing else is being worked out. */

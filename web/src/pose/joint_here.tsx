@@ -14,6 +14,7 @@ export function JointHere({ state }: { state: State }) {
   if (!frame || !jointAskedIn(state.history.present, frame.id)) return null;
   const row = joint.rowOf(frame.id);
   const impossible = joint.impossibleIn(frame.id);
+  const otherSide = joint.otherSideIn(frame.id);
   const words = texts.panel.joint;
   const { doubtful } = trustOf(state.history.present, frame.id);
   return (
@@ -32,8 +33,8 @@ export function JointHere({ state }: { state: State }) {
           {words.doubt}
         </p>
       )}
-      {joint.otherSide !== null && (
-        <p class="card-note" title={asSentence(joint.otherSide)}>
+      {otherSide !== null && (
+        <p class="card-note" title={asSentence(otherSide)}>
           {words.otherSide}
         </p>
       )}
