@@ -31,6 +31,8 @@ pub struct Film {
     digest: [u8; 32],
     /// Of each frame's pixels.
     prints: Vec<u64>,
+    /// Where files state another order than their names have: the first file that stands elsewhere by that, and the one that would stand there.
+    out_of_order: Option<[usize; 2]>,
     decoded: Mutex<VecDeque<(usize, Slot)>>,
     opened: Mutex<Option<(usize, Arc<FrameFile<'static>>)>>,
 }
@@ -38,6 +40,8 @@ pub struct Film {
 /// What is known of a file before its frames are looked at.
 struct Listed {
     digest: [u8; 32],
+    /// Its place in its series, where it states one.
+    number: Option<f64>,
     /// Width and height of each of its frames, and a hash of its pixels.
     frames: Vec<((u32, u32), u64)>,
 }
@@ -58,6 +62,7 @@ impl Film {
             let count = listed.frames.len();
             places.extend((0..count).map(|index| (file, index, count)));
         }
+        let numbers: Vec<Option<f64>> = listed.iter().map(|listed| listed.number).collect();
         let frames = listed.into_iter().flat_map(|listed| listed.frames);
         let (sizes, prints): (Vec<_>, Vec<_>) = frames.unzip();
         let mut film = Self {
@@ -66,6 +71,7 @@ impl Film {
             size: (0, 0),
             digest: whole.finalize().into(),
             prints,
+            out_of_order: out_of_order(&numbers),
             decoded: Mutex::default(),
             opened: Mutex::default(),
         };
@@ -125,6 +131,19 @@ impl Film {
             "{}: frames {}{more} are the same to the last pixel: was one written twice? They are taken for neighbours at even times",
             folder.display(),
             named.join(", ")
+        ))
+    }
+
+    /// What files that state another order than that of their names tell, a sentence without its full stop. The names stand, as rows of poses
+    /// were written by them.
+    pub fn disorder(&self) -> Option<String> {
+        let [by_name, by_number] = self.out_of_order?.map(|file| &self.paths[file]);
+        let folder = by_name.parent().unwrap_or(Path::new(""));
+        Some(format!(
+            "{}: frames stand by the names of their files, which state another order (Instance Number): {} stands where {} would by that. If that is the order of time, rename the files",
+            folder.display(),
+            name_of(by_name),
+            name_of(by_number)
         ))
     }
 
@@ -222,8 +241,25 @@ fn list(path: &Path) -> Result<Listed> {
     };
     Ok(Listed {
         frames: (0..file.count()).map(frame).collect::<Result<_>>()?,
+        number: file.instance_number(),
         digest,
     })
+}
+
+/// Of files, each of which states a number of its own, the first that does not stand in their order, and the one that would stand there;
+/// `None` where all stand in it, or not all state one.
+fn out_of_order(numbers: &[Option<f64>]) -> Option<[usize; 2]> {
+    let stated: Vec<f64> = numbers.iter().copied().collect::<Option<_>>()?;
+    let mut order: Vec<usize> = (0..stated.len()).collect();
+    order.sort_by(|&a, &b| stated[a].total_cmp(&stated[b]));
+    let each_its_own = order
+        .windows(2)
+        .all(|pair| stated[pair[0]] < stated[pair[1]]);
+    let at = order
+        .iter()
+        .enumerate()
+        .position(|(at, &file)| at != file)?;
+    each_its_own.then(|| [at, order[at]])
 }
 
 /// A hash of pixels: the same of the same.
@@ -292,6 +328,21 @@ mod tests {
             refused.contains("4.png is 15 x 8 pixels but 1.png is 16 x 8 pixels"),
             "{refused}"
         );
+    }
+
+    #[test]
+    fn files_that_state_another_order_are_told_by_the_first_that_stands_elsewhere() {
+        let told = |numbers: &[i32]| {
+            let stated = numbers
+                .iter()
+                .map(|&number| (number > 0).then(|| f64::from(number)));
+            out_of_order(&stated.collect::<Vec<_>>())
+        };
+        assert_eq!(told(&[3, 1, 2]), Some([0, 1]));
+        assert_eq!(told(&[1, 9, 2]), Some([1, 2]));
+        for in_order_or_untold in [&[][..], &[5], &[1, 2, 7], &[2, 1, 2], &[2, 1, -1]] {
+            assert_eq!(told(in_order_or_untold), None, "{in_order_or_untold:?}");
+        }
     }
 
     #[test]

@@ -95,7 +95,10 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let calibration = read_calibration(&study.calibration)?;
     let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
-    for remark in [film.gaps(), film.repeats()].into_iter().flatten() {
+    for remark in [film.gaps(), film.repeats(), film.disorder()]
+        .into_iter()
+        .flatten()
+    {
         (request.listener)(Told::Remark(remark));
     }
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
