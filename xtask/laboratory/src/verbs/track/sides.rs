@@ -1,5 +1,8 @@
 //! Each component put on the right side of its mirror, over the whole film, in the core's order.
 
+use std::fmt;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+
 use anyhow::Result;
 use fluoropose::follow::{
     Cell, Crossing, FramePose, KnownFemur, Looked, Rival, SecondLook, Settling, SettlingStep,
@@ -9,7 +12,6 @@ use rayon::prelude::*;
 
 use super::follow::follow;
 use super::part::Part;
-use super::record::Record;
 use super::run::Run;
 
 /// By how much another pose of each frame is less likely; `None` where there is none.
@@ -82,12 +84,9 @@ fn cross(
     (settling, cells): (&mut Settling, &mut [Cell]),
 ) -> Result<()> {
     let middle = part.middle();
-    let mut bits = 0;
     while let Some(frame) = crossing.next() {
         let trail = crossing.way().trail();
-        let expected = trail.expect(frame, &middle).pose.rotation;
-        bits = bits_of(expected.into_iter().flatten().chain([f64::from_bits(bits)]));
-        let key = format!("cross/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+        let key = key_of("cross", part, frame, trail);
         let look = || {
             part.see(run.film, frame, |subject, image, memory| {
                 look(subject, image, frame, trail, memory)
@@ -118,10 +117,7 @@ fn look_again(
 ) -> Result<()> {
     let one = |look: &SecondLook| -> Result<(usize, Option<FramePose>)> {
         let frame = look.frame;
-        let numbers = look.own.numbers().into_iter();
-        let beside = look.expected.rotation.into_iter().flatten();
-        let bits = bits_of(numbers.chain(beside));
-        let key = format!("second/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+        let key = key_of("second", part, frame, look);
         let better = run.step((part, frame), "looked at once more", &key, || {
             part.see(run.film, frame, |subject, image, memory| {
                 look.run(subject, image, memory)
@@ -151,8 +147,13 @@ fn look_again(
 }
 
 /// Tells some numbers from others.
-fn bits_of(numbers: impl Iterator<Item = f64>) -> u64 {
-    numbers.fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits())
+/// The key of a step that is done more than once in a frame, each time by something else: its text has every digit of what the step goes by. With
+/// parts of that a run that was stopped took what had been seen on another way.
+fn key_of(what: &str, part: &Part<'_>, frame: usize, by: &impl fmt::Debug) -> String {
+    let mut hasher = DefaultHasher::new();
+    format!("{by:?}").hash(&mut hasher);
+    let (number, phase, by) = (part.number, part.phase(), hasher.finish());
+    format!("{what}/{number}/{phase}/{frame}/{by:x}")
 }
 
 /// Looks at some frames for another pose.
@@ -167,27 +168,29 @@ fn seen(
         Rival::Mirrored => ("mirror", "seen from the other side"),
         Rival::Elsewhere => ("elsewhere", "other poses near by"),
     };
-    let look = |frame: usize, own: &FramePose| {
+    let look = |frame: usize, own: &FramePose, mirrored: Option<&FramePose>| {
         part.see(run.film, frame, |subject, image, memory| match rival {
             Rival::Mirrored => mirrored_pose(subject, image, own, memory),
-            Rival::Elsewhere => {
-                let both = settling.both_sides_of(frame);
-                let mirrored = both.and_then(|sample| sample.mirrored_now(own));
-                elsewhere(subject, image, (own, mirrored.as_ref()), memory)
-            }
+            Rival::Elsewhere => elsewhere(subject, image, (own, mirrored), memory),
         })
+    };
+    let known_mirrored = |frame: usize, own: &FramePose| match rival {
+        Rival::Mirrored => None,
+        Rival::Elsewhere => settling.both_sides_of(frame)?.mirrored_now(own),
     };
     let sample = |&frame: &usize| -> Result<Option<SideSample>> {
         let Some(&own) = cells[frame].found() else {
             return Ok(None);
         };
-        let bits = bits_of(own.numbers().into_iter());
-        let key = format!("{what}/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+        let mirrored = known_mirrored(frame, &own);
+        let key = key_of(what, part, frame, &(own, mirrored));
         Ok(Some(SideSample {
             frame,
             own,
             rival,
-            other: run.step((part, frame), told, &key, || look(frame, &own))?,
+            other: run.step((part, frame), told, &key, || {
+                look(frame, &own, mirrored.as_ref())
+            })?,
             fixed: cells[frame].fixed,
         }))
     };
