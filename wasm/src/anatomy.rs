@@ -1,7 +1,6 @@
 //! Which way a component lies in the axes of its file, as far as its shape tells.
 
 use fluoropose::joint::flange::side_by_flange;
-use fluoropose::joint::kinematics::Side;
 use fluoropose::mesh::Mesh;
 use fluoropose::mesh::anatomy::{
     AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape, field_axes,
@@ -107,11 +106,7 @@ pub fn flange_side(
         front_is_known: true,
         are_files_own: false,
     };
-    let word = |side| match side {
-        Side::Left => "left",
-        Side::Right => "right",
-    };
-    Ok(side_by_flange(&mesh, &axes).map(|side| word(side).to_owned()))
+    Ok(side_by_flange(&mesh, &axes).map(|side| side.to_string()))
 }
 
 #[cfg(test)]

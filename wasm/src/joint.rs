@@ -121,13 +121,8 @@ impl KneeJoint {
     /// # Errors
     /// The core's sentence about a mesh.
     #[wasm_bindgen(js_name = otherSide)]
-    pub fn other_side(&self) -> Result<Option<String>, JsError> {
-        if self.femur.vertices.is_empty() {
-            return Ok(None);
-        }
-        let axes = self.femur.anatomical_axes();
-        let other = OtherSide::than(self.side, &self.femur.mesh()?, &axes);
-        Ok(other.map(|other| other.to_string()))
+    pub fn other_side_in_words(&self) -> Result<Option<String>, JsError> {
+        Ok(self.other_side()?.map(|other| other.to_string()))
     }
 
     /// The names of all numbers that a frame gets, in their order.
@@ -175,6 +170,14 @@ impl KneeJoint {
 }
 
 impl KneeJoint {
+    pub(crate) fn other_side(&self) -> Result<Option<OtherSide>, JsError> {
+        if self.femur.vertices.is_empty() {
+            return Ok(None);
+        }
+        let axes = self.femur.anatomical_axes();
+        Ok(OtherSide::than(self.side, &self.femur.mesh()?, &axes))
+    }
+
     pub(crate) fn joint(&self) -> Result<Option<Joint<'_>>, JsError> {
         if self.femur.vertices.is_empty() || self.tibia.vertices.is_empty() {
             return Ok(None);

@@ -45,9 +45,7 @@ impl JointReport {
         facts.set_axes("femoral", &knee.femur.anatomical_axes());
         facts.set_axes("tibial", &knee.tibia.anatomical_axes());
         let other = knee.other_side()?;
-        facts
-            .remarks
-            .extend(other.map(|other| format!("Side: {other}.")));
+        facts.remarks.extend(other.map(Facts::side_remark));
         Ok(Self { film, facts })
     }
 

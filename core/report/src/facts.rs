@@ -1,5 +1,6 @@
 //! What a report says beside the numbers: where they come from, and by what settings.
 
+use fluoropose::joint::flange::OtherSide;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 
 use crate::film::JointFilm;
@@ -30,6 +31,12 @@ impl Facts {
     /// A setting more.
     pub fn set(&mut self, name: &str, value: impl Into<String>) {
         self.settings.push((name.to_owned(), value.into()));
+    }
+
+    /// What the femoral component says of the side that is stated, where that is the other one.
+    #[must_use]
+    pub fn side_remark(other: OtherSide) -> String {
+        format!("Side: {other}.")
     }
 
     /// Which of a component's own axes is which; `what`: `femoral`, `tibial`.

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
 use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::pose::jts::{JTA_EULER_KINEMATICS, JTA_EULER_POSE};
@@ -26,10 +25,7 @@ const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
 
 /// What the heading of every file says that may have one.
 fn heading(film: &JointFilm) -> Vec<String> {
-    let side = match film.side {
-        Side::Left => "left",
-        Side::Right => "right",
-    };
+    let side = film.side;
     let filter = match film.cutoff_hz.zip(film.frames_per_s) {
         Some((cutoff, rate)) => format!(
             "filter: columns filtered_* are those of poses filtered by a zero-lag Butterworth filter of fourth order, {cutoff} Hz at {rate} frames a second, rotations on the group, each unbroken run by itself; all others are as found"

@@ -51,10 +51,7 @@ impl OtherSide {
 
 impl fmt::Display for OtherSide {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (told, stated) = match self.told {
-            Side::Left => ("left", "right"),
-            Side::Right => ("right", "left"),
-        };
+        let (told, stated) = (self.told, self.told.other());
         write!(
             f,
             "the femoral component's flange is higher at its {told} half, as those of {told} knees are, but the side is stated as {stated}: of a {told} knee internal rotation and abduction would have the other sign, and medial would be lateral"

@@ -1,6 +1,8 @@
 //! Joint kinematics: the tibial component relative to the femoral one, in the field's six
 //! numbers.
 
+use core::fmt;
+
 use crate::math::{apply, asin, degrees, dot, scale, transpose};
 use crate::pose::{EulerPose, Pose};
 
@@ -21,6 +23,25 @@ impl Side {
             Self::Left => 1.0,
             Self::Right => -1.0,
         }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
+/// `left` or `right`.
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        })
     }
 }
 

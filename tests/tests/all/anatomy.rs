@@ -237,10 +237,6 @@ fn flanges_of_real_components_tell_a_side_and_their_mirror_images_the_other() {
         let folder = study.parent().expect("a folder");
         let model = read_model(&folder.join(file)).expect("a model");
         assert_eq!(told_side(&model), Some(told), "{name}");
-        let other = match told {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        };
-        assert_eq!(told_side(&mirrored(&model)), Some(other), "{name}");
+        assert_eq!(told_side(&mirrored(&model)), Some(told.other()), "{name}");
     }
 }

@@ -10,7 +10,7 @@ use fluoropose::joint::shared::KnownTo;
 use fluoropose::joint::{Joint, JointFrame};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::{Pose, Side};
-use fluoropose_report::{JointFilm, JointRow};
+use fluoropose_report::{Facts, JointFilm, JointRow};
 
 use super::sources::{Body, Sources};
 use crate::files::{Role, shape_doubt};
@@ -79,7 +79,7 @@ impl<'s> Knee<'s> {
         }
         let femoral = sources.femur.model.as_model();
         let other = OtherSide::than(side, femoral.mesh(), &femur);
-        remarks.extend(other.map(|other| format!("Side: {other}.")));
+        remarks.extend(other.map(Facts::side_remark));
         let says = |body: &Body| body.uncertain.values().all(|one| one.film_steps.is_some());
         if !says(&sources.femur) || !says(&sources.tibia) {
             remarks.push("The covariances do not say what of them is the film's, so that it counts twice, as if it were wrong in each component by itself: `track` writes it now.".to_owned());

@@ -4,7 +4,6 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::Side;
 use fluoropose::follow::{Cell, Conclusion, State, frames_to_ask};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
@@ -152,11 +151,10 @@ fn side_remark(study: &Study, shapes: &[Shape<'_>]) -> Option<String> {
         let other = shapes.iter().find_map(|shape| shape.other_side(stated))?;
         return Some(other.to_string());
     }
-    let told = match shapes.iter().find_map(Shape::made_for) {
-        Some(Side::Left) => "; the femoral component is made for a left knee",
-        Some(Side::Right) => "; the femoral component is made for a right knee",
-        None => "",
-    };
+    let told = shapes.iter().find_map(Shape::made_for);
+    let told = told.map_or_else(String::new, |side| {
+        format!("; the femoral component is made for a {side} knee")
+    });
     let lack = || format!("{}: joint numbers need it{told}", study.lacks("side"));
     study.is_knee().then(lack)
 }
