@@ -120,17 +120,22 @@ impl Settling {
         }
     }
 
-    /// What was seen before in the next frame of a way over a jump, where its trail was the same.
-    #[must_use]
-    pub fn seen_over_jump(&self, frame: usize, trail: &Trail) -> Option<Looked> {
+    /// What is seen in the next frame of a way over a jump: by `see`, or what was seen from the same trail before.
+    ///
+    /// # Errors
+    /// Those of `see`.
+    pub fn over_jump<E>(
+        &mut self,
+        (frame, trail): (usize, &Trail),
+        see: impl FnOnce() -> Result<Looked, E>,
+    ) -> Result<Looked, E> {
         let mut seen = self.over_jumps.iter();
-        let same = seen.find(|(at, before, _)| *at == frame && before == trail);
-        same.map(|(.., looked)| *looked)
-    }
-
-    /// Keeps what is seen there.
-    pub fn saw_over_jump(&mut self, frame: usize, trail: &Trail, looked: Looked) {
+        if let Some((.., looked)) = seen.find(|(at, before, _)| *at == frame && before == trail) {
+            return Ok(*looked);
+        }
+        let looked = see()?;
         self.over_jumps.push((frame, trail.clone(), looked));
+        Ok(looked)
     }
 
     /// What is to be done next with the film's `cells`; `None` where all is done.

@@ -9,7 +9,7 @@ use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{
-    CameraView, Fit, ImageTarget, Polarity, RefineBuffers, RefineOptions, refine,
+    CameraView, Fit, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions, refine,
 };
 use fluoropose_phantom::film::motion::{DEEPEST_DEG, knee};
 use fluoropose_phantom::film::{Physics, Placed, Scene, expose};
@@ -102,8 +102,8 @@ fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
     assert!(1.3 * both[0].misfit() < both[1].misfit());
 }
 
-#[test]
-fn what_is_given_up_on_the_way_would_have_left_more() {
+/// Work on a tray in its frame, whose film is known.
+fn on_the_tray(work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>)) {
     let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
     let model = model.as_model();
     let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
@@ -112,73 +112,79 @@ fn what_is_given_up_on_the_way_would_have_left_more() {
     let subject = Subject::new(&model, &[], &camera);
     let mut buffers = RefineBuffers::default();
     let mut memory = buffers.borrow(&model, &camera);
-    let (truth, middle) = (Pose::from(TRUE), model.bounds().centre);
+    work(&subject, &image, &mut memory);
+}
 
-    // A hand leaves more than is usual.
-    let by_hand = moved(&truth, &middle, [0.0; 2], [0.35, -0.3, 0.0]);
-    let seen = frame_pose_at(&subject, &image, &by_hand, &mut memory).expect("drawn");
-    let anchor = Anchor::fixed(&subject, &image, (3, &by_hand), &mut memory).expect("drawn");
-    assert_eq!((anchor.found, anchor.fixed), (seen, true));
-    let usual = anchor.usual.misfit_px;
-    assert!(usual < 0.5 * seen.misfit_px, "{usual} {}", seen.misfit_px);
-
-    let (mut kept, mut left) = (0, 0);
-    for (turn, deg) in (0..6).flat_map(|turn| [1.0, 3.0, 6.0].map(|deg| (turn, deg))) {
+/// Starts around a pose, with how far off they are, degrees.
+fn around(truth: &Pose, middle: &[f64; 3]) -> impl Iterator<Item = (Pose, f64)> {
+    let ways = (0..6).flat_map(|turn| [1.0, 3.0, 6.0].map(|deg| (turn, deg)));
+    ways.map(|(turn, deg)| {
         let (sin, cos) = f64::from(turn).sin_cos();
-        let start = moved(&truth, &middle, [deg * cos, deg * sin], [0.0; 3]);
-        let start = (&start, From::Near);
-        let whole = refined_on_frame(&subject, &image, start, &mut memory).expect("refined");
-        let any = Starts::new(&subject, &image).lead(start, &mut memory);
-        assert_eq!(any, Some(whole));
-        let most_px = 1.5 * usual;
-        let within = Starts::new(&subject, &image).lead_within(most_px, start, &mut memory);
-        match whole.misfit_px <= most_px {
-            true => assert_eq!(within, Some(whole), "{deg} degrees"),
-            false => assert_eq!(within, None, "{deg} degrees"),
+        (moved(truth, middle, [deg * cos, deg * sin], [0.0; 3]), deg)
+    })
+}
+
+#[test]
+fn what_is_given_up_on_the_way_would_have_left_more() {
+    on_the_tray(|subject, image, memory| {
+        let (truth, middle) = (Pose::from(TRUE), subject.model.bounds().centre);
+
+        // A hand leaves more than is usual.
+        let by_hand = moved(&truth, &middle, [0.0; 2], [0.35, -0.3, 0.0]);
+        let seen = frame_pose_at(subject, image, &by_hand, memory).expect("drawn");
+        let anchor = Anchor::fixed(subject, image, (3, &by_hand), memory).expect("drawn");
+        assert_eq!((anchor.found, anchor.fixed), (seen, true));
+        let usual = anchor.usual.misfit_px;
+        assert!(usual < 0.5 * seen.misfit_px, "{usual} {}", seen.misfit_px);
+
+        let (mut kept, mut left) = (0, 0);
+        for (start, deg) in around(&truth, &middle) {
+            let start = (&start, From::Near);
+            let whole = refined_on_frame(subject, image, start, memory).expect("refined");
+            let any = Starts::new(subject, image).lead(start, memory);
+            assert_eq!(any, Some(whole));
+            let most_px = 1.5 * usual;
+            let within = Starts::new(subject, image).lead_within(most_px, start, memory);
+            match whole.misfit_px <= most_px {
+                true => assert_eq!(within, Some(whole), "{deg} degrees"),
+                false => assert_eq!(within, None, "{deg} degrees"),
+            }
+            *(if within.is_some() {
+                &mut kept
+            } else {
+                &mut left
+            }) += 1;
         }
-        *(if within.is_some() {
-            &mut kept
-        } else {
-            &mut left
-        }) += 1;
-    }
-    assert!(kept > 3 && left > 3, "{kept} {left}");
+        assert!(kept > 3 && left > 3, "{kept} {left}");
+    });
 }
 
 /// The naive way is to go to the end from each start.
 #[test]
 fn what_is_given_up_at_a_known_pose_would_have_ended_there() {
-    let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
-    let model = model.as_model();
-    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
-    let frame = frame.expect("fits");
-    let image = shown(&frame);
-    let subject = Subject::new(&model, &[], &camera);
-    let mut buffers = RefineBuffers::default();
-    let mut memory = buffers.borrow(&model, &camera);
-    let (truth, middle) = (Pose::from(TRUE), model.bounds().centre);
-    let own = refined_on_frame(&subject, &image, (&truth, From::Near), &mut memory);
-    let own = own.expect("refined");
-    let covariance = own.covariance.expect("determined");
-    let starts = Starts::new(&subject, &image).knowing(&[own.pose]);
-    let (mut back, mut on) = (0, 0);
-    for (turn, deg) in (0..6).flat_map(|turn| [1.0, 3.0, 6.0].map(|deg| (turn, deg))) {
-        let (sin, cos) = f64::from(turn).sin_cos();
-        let start = moved(&truth, &middle, [deg * cos, deg * sin], [0.0; 3]);
-        let start = (&start, From::Near);
-        let whole = refined_on_frame(&subject, &image, start, &mut memory).expect("refined");
-        match starts.lead(start, &mut memory) {
-            // The same bits.
-            Some(one) => {
-                assert_eq!(one, whole, "{deg} degrees");
-                on += 1;
-            }
-            None => {
-                let is_there = covariance.holds(&own.pose, &whole.pose, &middle, 0.6 * 0.6);
-                assert_eq!(is_there, Some(true), "{deg} degrees");
-                back += 1;
+    on_the_tray(|subject, image, memory| {
+        let (truth, middle) = (Pose::from(TRUE), subject.model.bounds().centre);
+        let own = refined_on_frame(subject, image, (&truth, From::Near), memory);
+        let own = own.expect("refined");
+        let covariance = own.covariance.expect("determined");
+        let starts = Starts::new(subject, image).knowing(&[own.pose]);
+        let (mut back, mut on) = (0, 0);
+        for (start, deg) in around(&truth, &middle) {
+            let start = (&start, From::Near);
+            let whole = refined_on_frame(subject, image, start, memory).expect("refined");
+            match starts.lead(start, memory) {
+                // The same bits.
+                Some(one) => {
+                    assert_eq!(one, whole, "{deg} degrees");
+                    on += 1;
+                }
+                None => {
+                    let is_there = covariance.holds(&own.pose, &whole.pose, &middle, 0.6 * 0.6);
+                    assert_eq!(is_there, Some(true), "{deg} degrees");
+                    back += 1;
+                }
             }
         }
-    }
-    assert!(back > 5 && on > 1, "{back} {on}");
+        assert!(back > 5 && on > 1, "{back} {on}");
+    });
 }

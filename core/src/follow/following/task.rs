@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::convert::Infallible;
 use core::ops::Range;
 
 use crate::follow::cell::{Anchor, Cell};
@@ -79,13 +80,9 @@ impl Task {
     ) -> Option<FramePose> {
         let (way, which, frame) = self.next()?;
         let trail = way.trail();
-        let mut see = || look(subject, image, frame, trail, memory);
-        let looked = match self {
-            Self::Crossing(_) => settling.seen_over_jump(frame, trail).unwrap_or_else(|| {
-                let looked = see();
-                settling.saw_over_jump(frame, trail, looked);
-                looked
-            }),
+        let mut see = || Ok::<_, Infallible>(look(subject, image, frame, trail, memory));
+        let Ok(looked) = match self {
+            Self::Crossing(_) => settling.over_jump((frame, trail), see),
             _ => see(),
         };
         match self {

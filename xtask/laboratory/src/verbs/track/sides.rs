@@ -92,16 +92,9 @@ fn cross(
                 look(subject, image, frame, trail, memory)
             })
         };
-        let looked: Looked = match settling.seen_over_jump(frame, trail) {
-            Some(looked) => looked,
-            None => run.step(
-                (part, frame),
-                "followed from the other side of a jump",
-                &key,
-                look,
-            )?,
-        };
-        settling.saw_over_jump(frame, trail, looked);
+        let told = "followed from the other side of a jump";
+        let see = || run.step((part, frame), told, &key, look);
+        let looked: Looked = settling.over_jump((frame, trail), see)?;
         crossing.saw(frame, looked, (&middle, &part.planes));
     }
     crossing.write(cells);
