@@ -8,6 +8,7 @@ use crate::pose::{EulerPose, Pose};
 
 /// Side of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Side {
     /// Left knee.
     Left,
