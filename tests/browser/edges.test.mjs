@@ -1,6 +1,6 @@
 /** Tools that find the edges themselves: threshold, live-wire, snap, and shaping what they found. */
 import assert from 'node:assert/strict';
-import { drawn, IN_FIREFOX, pageTest, says, screenshot, step, until } from './support/browser.mjs';
+import { drawn, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { polygonWithin, trueOutline, truePose } from './support/study.mjs';
@@ -14,11 +14,7 @@ pageTest('threshold, live-wire and snap', async (page, t) => {
   await stage.learn();
   await step(page, t, 'threshold: a click inside takes the region, its level can be moved', (t) => threshold(page, stage, t));
   await step(page, t, 'live-wire: the path follows the edge, Backspace and undo take it back', (t) => liveWire(page, stage, t));
-  if (IN_FIREFOX) {
-    // What follows is done by keys and a sheet, in the core: here it is left to the tools that have a pointer.
-    await step(page, t, 'one click', () => oneClick(page));
-    return;
-  }
+  await step(page, t, 'one click', () => oneClick(page));
   await step(page, t, 'snap: a rough outline comes to the edges', (t) => snap(page, stage, t));
   await step(page, t, 'shape: simplified with its error shown', () => shape(page));
   await step(page, t, 'both components by a tool are as near as by two clicks', (t) => both(page, stage, t));
@@ -87,7 +83,7 @@ async function liveWire(page, stage, t) {
   await page.keyboard.press('Shift+Delete');
 }
 
-/** Elsewhere it is `new_user.test.mjs` that clicks. @param {Page} page */
+/** The tool that `new_user.test.mjs` begins with, here beside the others. @param {Page} page */
 async function oneClick(page) {
   panel.assertNear(await tracing.byOneClick(page), await truePose('femur', 1), tracing.BY_ONE_CLICK);
   await page.getByRole('button', { name: 'Undo: outline by one click' }).click();

@@ -1,6 +1,6 @@
 /** Tools that change an outline: brush, stretches, the whole outline moved, turned, scaled, taken to the next frame. */
 import assert from 'node:assert/strict';
-import { drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline, truePose } from './support/study.mjs';
@@ -20,8 +20,7 @@ pageTest('brush, stretches and whole outlines', async (page, t) => {
   await step(page, t, 'brush: adds, with Alt erases; one stroke is one unit of undo', () => brush(page, stage, outline));
   await step(page, t, 'a stretch is marked unknown by dragging along it, and known again', () => stretch(page, stage, outline));
   await step(page, t, 'the outline moves, turns and scales by its handles and by keys', () => transform(page, stage));
-  // Done by keys alone, in the core.
-  if (!IN_FIREFOX) await step(page, t, 'the next frame takes it over', (t) => copy(page, t));
+  await step(page, t, 'the next frame takes it over', (t) => copy(page, t));
 });
 
 /** @param {Page} page @param {Stage} stage @param {Point[]} outline */

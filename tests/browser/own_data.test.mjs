@@ -1,15 +1,12 @@
 /** One's own data: a frame, a calibration and a model as files, no demonstration. */
 import assert from 'node:assert/strict';
-import { pageTest, says, step, until, visit } from './support/browser.mjs';
+import { pageTest, says, step, until } from './support/browser.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, framePath, trueOutline, truePose } from './support/study.mjs';
-import { insideOf } from './support/tracing.mjs';
 
 const FRAME = 6;
-/** So many times as far away as it stands. */
-const FAR = 1.6;
 
 /** Pixels of the demonstration's focal length: 1200 mm at 0.373 mm each. */
 const FOCAL = 1200 / 0.373;
@@ -87,7 +84,6 @@ pageTest('own files to a pose', async (page, t) => {
 
   await step(page, t, 'a camera matrix will do, without any distance', (t) => byCameraMatrix(page, needs, t));
   await step(page, t, 'a window of views is a choice', () => windowOfViews(page));
-  await step(page, t, 'a click finds what stands farther away than knees do', (t) => farAway(page, t));
 }, { builds: true });
 
 /** @param {import('playwright-core').Page} page @param {import('playwright-core').Locator} shown @param {import('node:test').TestContext} t */
@@ -99,27 +95,6 @@ async function byCameraMatrix(page, shown, t) {
   const truth = await truePose('femur', FRAME);
   t.diagnostic(panel.differences(pose, truth));
   panel.assertNear(pose, truth, HAND_TRACED);
-}
-
-/** A camera of 1.6 times the focal length sees the same so many times as far away. @param {import('playwright-core').Page} page @param {import('node:test').TestContext} t */
-async function farAway(page, t) {
-  const stage = new Stage(page);
-  await visit(page);
-  await choose(page, await demoFile(framePath(FRAME)), file('far.txt', cameraMatrix(FAR * FOCAL)), await demoFile('femur.stl'));
-  await panel.waitForFrames(page, 1);
-  await panel.waitForLibraries(page, 'Femur');
-  await page.keyboard.press('o');
-  await stage.learn();
-  await stage.click(insideOf(await trueOutline('femur', FRAME)));
-  await panel.waitForPose(page);
-  assert.equal(await panel.verdict(page), 'Good');
-  // What the film tells of itself corrects the pose once more: it is read at rest.
-  const pose = await panel.waitForPose(page);
-  const truth = await truePose('femur', FRAME);
-  const wanted = { ...truth, z: FAR * truth.z };
-  t.diagnostic(panel.differences(pose, wanted));
-  // Perspective is another so far away: what this camera sees is drawn for another, so that no pose is exact, and the one at rest is turned by 0.6.
-  panel.assertNear(pose, wanted, { x: 0.4, y: 0.4, z: 16, zRot: 0.5, xRot: 1, yRot: 1 });
 }
 
 /** @param {import('playwright-core').Page} page */

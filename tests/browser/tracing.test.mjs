@@ -71,8 +71,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     await page.keyboard.press('0');
   });
 
-  // Which of them is found is the core's matter.
-  if (!IN_FIREFOX) await step(page, t, 'the tibia: two candidates, X shows the other', (t) => tibiaCandidates(page, stage, t));
+  await step(page, t, 'the tibia: two candidates, X shows the other', (t) => tibiaCandidates(page, stage, t));
 }, { builds: true });
 
 /**

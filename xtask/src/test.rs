@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use crate::clock::since_the_command;
 use crate::suite::changed;
 use crate::suite::side_by_side::{self, Chosen};
-use crate::suite::{boards, cluster, firmware, miri, python};
+use crate::suite::{boards, browser, cluster, firmware, miri, python};
 
 /// Options of `test`.
 ///
@@ -20,7 +20,7 @@ pub(crate) struct Args {
     /// Formatting, lints and the Rust tests on this machine
     #[arg(long)]
     native: bool,
-    /// The page: types, unit tests, and the whole of it in headless Chromium
+    /// The page: types, unit tests, and the whole of it in headless Chromium and Firefox; then what no other run has: tools in both
     #[arg(long)]
     browser: bool,
     /// The Cortex-M4F application under QEMU, compared with this machine line by line; then what no other run has: the same on a Cortex-M0+
@@ -85,6 +85,9 @@ pub(crate) fn run(args: Args) -> Result<()> {
     } else {
         side_by_side::run(args.chosen())
     };
+    if args.browser {
+        browser::tools_in_chromium(&mut report);
+    }
     if args.firmware {
         boards::run(&mut report);
     }

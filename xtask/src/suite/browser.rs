@@ -19,11 +19,11 @@ const PACKAGES: &str = "browser: packages of the page";
 const CHROMIUM: &str = "browser: the page in Chromium";
 const FIREFOX: &str = "browser: the page in Firefox";
 
-/// What is driven in Firefox too: the way from opening to a pose, every tool that has a pointer, and the keys. What the core does alike in each browser, its tests leave out
-/// there; of the rest its driver has no words for downloads and dropped files.
+/// What Firefox is driven by: the way from opening to a pose, every tool that has a pointer, and the keys. For most of the rest its driver has no words (downloads, dropped
+/// files). Chromium has it too where somebody asks for this suite ([`tools_in_chromium`]), and where no Firefox is to be had.
 ///
 /// All of it in one program: each start of Firefox takes 3.5 s of a processor.
-const IN_FIREFOX: &str = "together/tools.mjs";
+const TOOLS: &str = "together/tools.mjs";
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
@@ -66,9 +66,24 @@ fn dist() -> PathBuf {
     workspace::root().join("web/dist")
 }
 
+/// The tools in the other browser, too.
+pub(crate) fn tools_in_chromium(report: &mut Report) {
+    report.step("browser: tools in Chromium", || {
+        drive_chromium(vec![TOOLS.to_owned()])
+    });
+}
+
 fn in_chromium() -> Result<Said> {
+    let mut files = test_files::all_in(&folder())?;
+    if programs::firefox().is_ok() {
+        files.retain(|file| file != TOOLS);
+    }
+    drive_chromium(files)
+}
+
+fn drive_chromium(files: Vec<String>) -> Result<Said> {
     let (chromium, laboratory) = (programs::chromium()?, checked_profile::laboratory()?);
-    drive(test_files::all_in(&folder())?, 3, &|tests| {
+    drive(files, 3, &|tests| {
         // What the page writes is compared with what the command does.
         tests
             .env("FLUOROPOSE_CHROMIUM", &chromium)
@@ -79,7 +94,7 @@ fn in_chromium() -> Result<Said> {
 
 fn in_firefox() -> Result<Said> {
     let firefox = programs::firefox()?;
-    drive(vec![IN_FIREFOX.to_owned()], 1, &|tests| {
+    drive(vec![TOOLS.to_owned()], 1, &|tests| {
         tests.env("FLUOROPOSE_FIREFOX", &firefox);
     })
 }

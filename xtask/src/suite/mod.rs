@@ -3,7 +3,7 @@
 mod at_once;
 mod board_rows;
 pub(crate) mod boards;
-mod browser;
+pub(crate) mod browser;
 mod calls;
 pub(crate) mod changed;
 mod checked_profile;
