@@ -1,11 +1,8 @@
 //! Bead grids found in pictures, and the correction of distortion that they give. For workers: it takes a second.
 
 use fluoropose::image::frame::{Frame, Pixel};
-use fluoropose_distortion::automatic::{
-    DistortionGrid, DistortionGridMemory, MARKS, find_distortion_grid,
-};
+use fluoropose_distortion::automatic::{DistortionGrid, distortion_grid};
 use fluoropose_distortion::correction::{Corrected, fit};
-use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
 use wasm_bindgen::prelude::*;
 
@@ -80,19 +77,8 @@ impl BeadGrid {
     ) -> Result<BeadGrid, JsError> {
         let (width, height) = (width as usize, height as usize);
         let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
-        let mut sums = vec![0; sums_needed(width, height)];
-        let mut discs = vec![Disc::default(); MARKS];
-        let mut beads = vec![Bead::default(); MARKS];
-        let mut queue = vec![0; MARKS];
-        let mut memory = DistortionGridMemory {
-            sums: &mut sums,
-            discs: &mut discs,
-            beads: &mut beads,
-            queue: &mut queue,
-        };
         let radius = (radius != 0.0).then_some(radius);
-        let found = find_distortion_grid(&frame, bright, radius, &mut memory).map_err(sentence)?;
-        beads.truncate(found.marks);
+        let (found, beads) = distortion_grid(&frame, bright, radius).map_err(sentence)?;
         Ok(Self { found, beads })
     }
 }

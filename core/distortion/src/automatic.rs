@@ -6,6 +6,11 @@ use crate::lattice::{Bead, FEWEST, number};
 use fluoropose::image::frame::{Frame, Pixel};
 use fluoropose::memory::check_length;
 
+#[cfg(feature = "alloc")]
+use crate::discs::sums_needed;
+#[cfg(feature = "alloc")]
+use alloc::{vec, vec::Vec};
+
 /// Radii that are tried, px, the usual ones first. Each finds beads of 2/3 to 3/2 of its radius.
 const RADII: [f64; 8] = [4.5, 6.5, 3.0, 9.0, 2.0, 13.0, 19.0, 28.0];
 
@@ -99,6 +104,28 @@ fn is_better(
         // Too little memory does not depend on the radius.
         (Err(_), best) => best.is_err(),
     }
+}
+
+/// The same with memory of its own, for callers that have an allocator: the grid, and its marks.
+///
+/// # Errors
+/// As [`find_distortion_grid`].
+#[cfg(feature = "alloc")]
+pub fn distortion_grid<P: Pixel>(
+    frame: &Frame<'_, P>,
+    bright: bool,
+    radius_px: Option<f64>,
+) -> Result<(DistortionGrid, Vec<Bead>), DistortionError> {
+    let mut beads = vec![Bead::default(); MARKS];
+    let mut memory = DistortionGridMemory {
+        sums: &mut vec![0; sums_needed(frame.width(), frame.height())],
+        discs: &mut vec![Disc::default(); MARKS],
+        beads: &mut beads,
+        queue: &mut vec![0; MARKS],
+    };
+    let found = find_distortion_grid(frame, bright, radius_px, &mut memory)?;
+    beads.truncate(found.marks);
+    Ok((found, beads))
 }
 
 fn attempt<P: Pixel>(

@@ -107,5 +107,6 @@ pub use error::TracingError;
 pub use list::List;
 #[cfg(feature = "alloc")]
 pub use places_buffers::PlacesBuffers;
+pub use polyline::squared_distance;
 pub use side::{Hand, Inside};
 pub use vertex::{NEW, ShapeError, Vertex};

@@ -50,8 +50,9 @@ pub(crate) fn between((a, b): (Point, Point), t: f64) -> Point {
     )
 }
 
-/// Squared distance of a point from a segment.
-pub(crate) fn squared_distance(point: Point, (a, b): (Point, Point)) -> f64 {
+/// Squared distance of a point from a segment, square pixels.
+#[must_use]
+pub fn squared_distance(point: Point, (a, b): (Point, Point)) -> f64 {
     let (right, down) = (b.column - a.column, b.row - a.row);
     let (x, y) = (point.column - a.column, point.row - a.row);
     let length = right * right + down * down;

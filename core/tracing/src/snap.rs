@@ -26,6 +26,9 @@ use fluoropose::image::frame::{Frame, Pixel};
 use fluoropose::math::{floor, sqrt};
 use fluoropose::memory::check_length;
 
+#[cfg(feature = "alloc")]
+use alloc::{vec, vec::Vec};
+
 pub use sample::{MOST_REACH, Sample, Snap};
 
 /// The greatest distance between samples along the line, pixels.
@@ -110,6 +113,32 @@ pub fn snap<P: Pixel>(
         max: error.max + simplified.max,
         rms: sqrt(error.rms * error.rms + simplified.rms * simplified.rms),
     })
+}
+
+/// The same with memory of its own, for callers that have an allocator: the line, and how far its samples were moved.
+///
+/// # Errors
+/// As [`snap`].
+#[cfg(feature = "alloc")]
+pub fn snapped<P: Pixel>(
+    frame: &Frame<'_, P>,
+    points: &[Point],
+    settings: &Snap,
+) -> Result<(Vec<Vertex>, ShapeError), TracingError> {
+    let (samples, slopes) = snap_needed(points, settings.closed);
+    let mut places = vec![Vertex::default(); samples];
+    let mut out = List::new(&mut places);
+    let memory = SnapMemory {
+        samples: &mut vec![Sample::default(); samples],
+        slopes: &mut vec![0.0; slopes],
+        ways: &mut vec![0; slopes],
+        line: &mut vec![Vertex::default(); samples],
+        marks: &mut vec![false; samples],
+    };
+    let moved = snap(frame, points, settings, memory, &mut out)?;
+    let kept = out.as_slice().len();
+    places.truncate(kept);
+    Ok((places, moved))
 }
 
 /// Whether an untouched point must not be left out.

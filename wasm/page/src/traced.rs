@@ -4,6 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
+use fluoropose_tracing::squared_distance;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::camera;
@@ -178,8 +179,8 @@ impl Side {
         for row in within(top, bottom, unknown.height()) {
             for column in within(left, right, unknown.width()) {
                 let centre = Point::new(column as f64 + 0.5, row as f64 + 0.5);
-                let away = self.squared_distance(centre);
-                let nearer = |side: &Side| side.squared_distance(centre) < away;
+                let away = self.squared_from(centre);
+                let nearer = |side: &Side| side.squared_from(centre) < away;
                 if away <= REACH * REACH && !near.iter().any(nearer) {
                     unknown.set(column, row, true);
                 }
@@ -194,24 +195,14 @@ impl Side {
         [both(a.column, b.column), both(a.row, b.row)]
     }
 
+    fn squared_from(&self, point: Point) -> f64 {
+        squared_distance(point, (self.0, self.1))
+    }
+
     /// Whether a pixel within [`REACH`] of the other side may be nearer to this one.
     fn is_near(&self, other: &Side) -> bool {
         let mut pairs = self.bounds().into_iter().zip(other.bounds());
         pairs.all(|((a, b), (c, d))| a <= d + 2.0 * REACH && b >= c - 2.0 * REACH)
-    }
-
-    fn squared_distance(&self, point: Point) -> f64 {
-        let Self(a, b) = self;
-        let (right, down) = (b.column - a.column, b.row - a.row);
-        let (x, y) = (point.column - a.column, point.row - a.row);
-        let length = right * right + down * down;
-        let along = if length > 0.0 {
-            ((x * right + y * down) / length).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        let (x, y) = (x - along * right, y - along * down);
-        x * x + y * y
     }
 }
 
@@ -256,7 +247,7 @@ mod tests {
     fn distances_are_those_to_the_nearest_point_of_a_side() {
         let side = Side(Point::new(0.0, 0.0), Point::new(10.0, 0.0));
         for (column, row, squared) in [(5.0, 3.0, 9.0), (-3.0, 4.0, 25.0), (13.0, 4.0, 25.0)] {
-            assert_eq!(side.squared_distance(Point::new(column, row)), squared);
+            assert_eq!(side.squared_from(Point::new(column, row)), squared);
         }
     }
 }

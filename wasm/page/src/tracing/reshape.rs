@@ -4,7 +4,7 @@ use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
 use fluoropose_tracing::brush::{Brush, BrushMemory, Cut, brush, brush_needed};
 use fluoropose_tracing::simplify::{Simplify, as_vertices, simplify};
-use fluoropose_tracing::snap::{Sample, Snap, SnapMemory, snap, snap_needed};
+use fluoropose_tracing::snap::{Snap, snapped};
 use fluoropose_tracing::soften::{SoftenMemory, soften, soften_needed};
 use fluoropose_tracing::{Hand, List, ShapeError, Vertex};
 use wasm_bindgen::prelude::*;
@@ -33,7 +33,7 @@ pub fn snap_outline(
         reach,
         tolerance,
     };
-    snapped(film, &points_of(points), &settings)
+    reshaped(film, &points_of(points), &settings)
 }
 
 /// Pulls an open path to edges of a film, as [`snap_outline`] does. Its ends stay. The implant is on its right hand
@@ -57,32 +57,23 @@ pub fn snap_path(
         reach,
         tolerance,
     };
-    snapped(film, &points_of(path), &settings)
+    reshaped(film, &points_of(path), &settings)
 }
 
-fn snapped(film: &FrameImage, points: &[Point], settings: &Snap) -> Result<Reshaped, JsError> {
-    let (samples, slopes) = snap_needed(points, settings.closed);
-    let mut places = vec![Vertex::default(); samples];
-    let mut out = List::new(&mut places);
-    let memory = SnapMemory {
-        samples: &mut vec![Sample::default(); samples],
-        slopes: &mut vec![0.0; slopes],
-        ways: &mut vec![0; slopes],
-        line: &mut vec![Vertex::default(); samples],
-        marks: &mut vec![false; samples],
-    };
+fn reshaped(film: &FrameImage, points: &[Point], settings: &Snap) -> Result<Reshaped, JsError> {
     let (width, height) = film.size();
-    let error = match film.pixels() {
+    let found = match film.pixels() {
         Pixels::Eight(pixels) => {
             let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
-            snap(&frame, points, settings, memory, &mut out)
+            snapped(&frame, points, settings)
         }
         Pixels::Sixteen(pixels) => {
             let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
-            snap(&frame, points, settings, memory, &mut out)
+            snapped(&frame, points, settings)
         }
     };
-    Ok(Reshaped::new(out.as_slice(), error.map_err(sentence)?))
+    let (line, moved) = found.map_err(sentence)?;
+    Ok(Reshaped::new(&line, moved))
 }
 
 /// Leaves out points of a closed outline as long as its shape moves by no more than `tolerance` pixels. No point moves.

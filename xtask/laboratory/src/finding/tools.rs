@@ -8,7 +8,7 @@ use fluoropose::image::mask::Mask;
 use fluoropose_tracing::costs::{CostBuilder, CostMemory, Costs, Edge};
 use fluoropose_tracing::follow::{Cursor, Follower};
 use fluoropose_tracing::smoothed::Smoothed;
-use fluoropose_tracing::snap::{Sample, Snap, SnapMemory, snap, snap_needed};
+use fluoropose_tracing::snap::{Snap, snapped};
 use fluoropose_tracing::threshold::{
     Threshold, ThresholdMemory, region_at, suggested_level, threshold_needed,
 };
@@ -125,19 +125,9 @@ fn onto_edges(frame: &Frame<'_, u8>, path: &[Point]) -> Result<Vec<Vertex>> {
         reach: REACH,
         tolerance: PATH_TOLERANCE,
     };
-    let (samples, slopes) = snap_needed(path, false);
-    let mut places = vec![Vertex::default(); samples];
-    let mut out = List::new(&mut places);
-    let memory = SnapMemory {
-        samples: &mut vec![Sample::default(); samples],
-        slopes: &mut vec![0.0; slopes],
-        ways: &mut vec![0; slopes],
-        line: &mut vec![Vertex::default(); samples],
-        marks: &mut vec![false; samples],
-    };
-    snap(frame, path, &settings, memory, &mut out)?;
-    let points = out.as_slice();
-    Ok(points[..points.len().saturating_sub(1)].to_vec())
+    let (mut points, _) = snapped(frame, path, &settings)?;
+    points.pop();
+    Ok(points)
 }
 
 fn filled(outline: &[Vertex], width: usize, height: usize) -> Result<MaskBuffer> {

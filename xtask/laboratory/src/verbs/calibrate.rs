@@ -6,9 +6,8 @@ use anyhow::{Context, Result};
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::image::frame::Frame;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
-use fluoropose_distortion::automatic::{DistortionGridMemory, MARKS, find_distortion_grid};
+use fluoropose_distortion::automatic::distortion_grid;
 use fluoropose_distortion::correction::{Corrected, ORDERS, fit};
-use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
 use fluoropose_distortion::plate::{Distances, PlateCamera, camera};
 use fluoropose_report::plus_minus;
@@ -98,30 +97,14 @@ pub fn run(args: Args) -> Result<()> {
 /// When there is no grid.
 pub fn beads_of(picture: &GreyFrame, bright: bool, radius: Option<f64>) -> Result<Vec<Bead>> {
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let mut sums = vec![0; sums_needed(width, height)];
-    let (mut discs, mut beads) = (vec![Disc::default(); MARKS], vec![Bead::default(); MARKS]);
-    let mut queue = vec![0; MARKS];
-    let mut memory = DistortionGridMemory {
-        sums: &mut sums,
-        discs: &mut discs,
-        beads: &mut beads,
-        queue: &mut queue,
+    let (found, mut beads) = match &picture.pixels {
+        Pixels::U8(pixels) => {
+            distortion_grid(&Frame::new(pixels, width, height, width)?, bright, radius)?
+        }
+        Pixels::U16(pixels) => {
+            distortion_grid(&Frame::new(pixels, width, height, width)?, bright, radius)?
+        }
     };
-    let found = match &picture.pixels {
-        Pixels::U8(pixels) => find_distortion_grid(
-            &Frame::new(pixels, width, height, width)?,
-            bright,
-            radius,
-            &mut memory,
-        )?,
-        Pixels::U16(pixels) => find_distortion_grid(
-            &Frame::new(pixels, width, height, width)?,
-            bright,
-            radius,
-            &mut memory,
-        )?,
-    };
-    beads.truncate(found.marks);
     beads.retain(|bead| bead.index.is_some());
     println!(
         "{} beads of {:.1} px radius in a lattice, {:.1} px apart; {} other marks left out",
