@@ -129,8 +129,9 @@ fn pages_of_the_crates() -> Result<Said> {
         "fluoropose-embedded",
     ];
     let packages = crates.iter().flat_map(|name| ["--package", name]);
-    // What they stand on is compiled for the tests.
-    let mut cargo = checked_profile::of_some("doc")?;
+    // What they stand on is compiled for the tests; lints were asked then.
+    let mut cargo = own_cargo();
+    cargo.arg("doc").args(checked_profile::CHECKED);
     cargo.args(["--no-deps", "--features", "fluoropose/alloc"]);
     // It has no page: with it macros have the features with which they are compiled.
     cargo.args(["--package", "xtask"]);
