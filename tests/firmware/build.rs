@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-env-changed=FLUOROPOSE_FIRMWARE_INPUTS");
     println!("cargo::rerun-if-env-changed=FLUOROPOSE_OUTLINES");
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
-    let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS").map_or_else(
-        || package.join("../../target/firmware/inputs"),
-        PathBuf::from,
-    );
+    let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS")
+        .map_or_else(|| usual_inputs(&package), PathBuf::from);
+    let for_board = env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none");
+    println!("cargo::rustc-check-cfg=cfg(nothing_to_run)");
     for (what, name) in [
         ("LIBRARY", "femur.library"),
         (
@@ -24,18 +23,29 @@ fn main() {
         ),
     ] {
         let file = inputs.join(name);
-        if !file.is_file() {
-            println!(
+        match (file.is_file(), for_board) {
+            (true, _) => {}
+            (false, true) => println!(
                 "cargo::error={name} is missing; `cargo xtask test --firmware` makes it and builds this"
-            );
+            ),
+            // As one of a workspace (`host`) it is also built before.
+            (false, false) => println!("cargo::rustc-cfg=nothing_to_run"),
         }
         println!("cargo::rerun-if-changed={}", file.display());
         println!("cargo::rustc-env=FLUOROPOSE_{what}={}", file.display());
     }
-    if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
+    if for_board {
         let is_arm = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "arm");
         link(&package, is_arm);
     }
+}
+
+/// Where the inputs are made: under the root, which is above the package.
+fn usual_inputs(package: &Path) -> PathBuf {
+    let root = package
+        .ancestors()
+        .find(|folder| folder.join("xtask").is_dir());
+    root.unwrap_or(package).join("target/firmware/inputs")
 }
 
 /// Which of three, by the features.

@@ -3,10 +3,14 @@
 
 #[cfg(target_os = "none")]
 mod board;
-#[cfg(not(target_os = "none"))]
+#[cfg(not(any(target_os = "none", nothing_to_run)))]
 mod host;
 
-#[cfg(not(target_os = "none"))]
+#[cfg(not(any(target_os = "none", nothing_to_run)))]
 fn main() -> std::process::ExitCode {
     host::main()
 }
+
+/// What it is to run is not made yet (`build.rs`).
+#[cfg(nothing_to_run)]
+fn main() {}

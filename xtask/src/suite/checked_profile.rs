@@ -27,18 +27,9 @@ pub(super) fn surroundings() -> impl Iterator<Item = (&'static str, &'static str
 /// # Errors
 /// Where there is no linter.
 pub(crate) fn cargo(what: &str, options: &[&str]) -> Result<Command> {
-    let mut cargo = of_some(what)?;
-    cargo.arg("--workspace").args(options);
-    Ok(cargo)
-}
-
-/// The same on packages that whoever calls names.
-///
-/// # Errors
-/// Where there is no linter.
-pub(crate) fn of_some(what: &str) -> Result<Command> {
     let mut cargo = own_cargo();
     cargo.arg(what).args(CHECKED);
+    cargo.arg("--workspace").args(options);
     components::lint(&mut cargo)?;
     Ok(cargo)
 }

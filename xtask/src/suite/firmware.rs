@@ -9,6 +9,7 @@ use fluoropose::pose::{Pose, geodesic_deg};
 
 use super::board_rows::{self, Row, write_json};
 use super::calls;
+use super::checked_profile;
 use super::report::{Report, Said};
 use crate::firmware::{Proof, TRUTH, write_inputs};
 use crate::output::say;
@@ -55,7 +56,7 @@ pub(crate) fn figures() -> PathBuf {
 /// One program for the board, and how near to the true pose it comes.
 pub(super) struct Program {
     pub(super) name: &'static str,
-    pub(super) features: &'static [&'static str],
+    pub(super) features: &'static str,
     pub(super) within: Option<Within>,
 }
 
@@ -74,13 +75,13 @@ const OF_A_VIEW: Within = Within {
 
 pub(super) const LIBRARY: Program = Program {
     name: "library",
-    features: &[],
+    features: "",
     within: Some(OF_A_VIEW),
 };
 
 const MICROMATH: Program = Program {
     name: "micromath",
-    features: &["--features", "micromath"],
+    features: "micromath",
     within: Some(OF_A_VIEW),
 };
 
@@ -93,41 +94,41 @@ const OF_A_COARSE_SURFACE: Within = Within {
 
 pub(super) const FINDER: Program = Program {
     name: "finder",
-    features: &["--features", "finder"],
+    features: "finder",
     within: Some(OF_A_COARSE_SURFACE),
 };
 
 /// From the pose of the frame before.
 pub(super) const REFINE: Program = Program {
     name: "refinement",
-    features: &["--features", "refine"],
+    features: "refine",
     ..FINDER
 };
 
 /// A library's poses of random outlines, one after another: no panic, the host's answers, the stack of the worst.
 pub(super) const OUTLINES: Program = Program {
     name: "outlines",
-    features: &["--features", "outlines"],
+    features: "outlines",
     within: None,
 };
 
 /// The finder of the tibial component.
 pub(super) const TIBIA: Program = Program {
     name: "tibia",
-    features: &["--features", "tibia"],
+    features: "tibia",
     ..FINDER
 };
 
 /// The finder where nothing is known of the view.
 pub(super) const ALL_ROUND: Program = Program {
     name: "all round",
-    features: &["--features", "all_round"],
+    features: "all_round",
     ..FINDER
 };
 
 /// The same, linked for a Netduino Plus 2.
 pub(super) const SMALL_FINDER: Program = Program {
-    features: &["--features", "finder,netduinoplus2"],
+    features: "finder,netduinoplus2",
     ..FINDER
 };
 
@@ -148,6 +149,11 @@ fn at_firmware(cargo: &mut Command) -> &mut Command {
         .env("FLUOROPOSE_FIRMWARE_INPUTS", inputs_folder())
 }
 
+/// Whether the build script finds what belongs into flash without being told: what the native suite has built need not be built again then.
+fn inputs_are_where_usual() -> bool {
+    inputs_folder() == workspace::root().join("target/firmware/inputs")
+}
+
 fn check_formatting() -> Result<Said> {
     components::ensure("fmt")?;
     command::run(at_firmware(own_cargo().args(["fmt", "--check"])))?;
@@ -160,9 +166,10 @@ fn compare(program: &Program, rows: &mut Vec<Row>) -> Result<Said> {
     let features = program.features;
     let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
     let qemu = programs::qemu_arm()?;
-    let host = on_host(features)?;
     let image = build(&toolchain, features)?;
     let board = on_board(&qemu, M4F, &image)?;
+    // After that: it may wait for what the native suite compiles.
+    let host = on_host(features)?;
     if program.name == FINDER.name {
         // The same image; another core, another board.
         let other = on_board(&qemu, M7, &image)?;
@@ -217,30 +224,31 @@ pub(super) fn ensure_alike(host: &str, board: &str) -> Result<usize> {
     Ok(here)
 }
 
-/// The image for the board is optimised as one piece of code; here that would only be waited for, and how it is compiled
-/// must not matter.
-const HOST: [&str; 8] = [
-    "--config",
-    "profile.release.opt-level=0",
-    "--config",
-    "profile.release.debug=false",
-    "--config",
-    "profile.release.lto='off'",
-    "--config",
-    "profile.release.codegen-units=16",
-];
+/// The package that is the same program here.
+const HOST: &str = "fluoropose-firmware-host";
 
-pub(super) fn on_host(features: &[&str]) -> Result<String> {
-    let mut cargo = own_cargo();
-    at_firmware(cargo.args(["run", "--quiet", "--release"]).args(HOST)).args(features);
-    cargo.arg("--target-dir").arg(folder());
-    components::lint(&mut cargo)?;
-    command::output(&mut cargo)
+/// Compiled here as all that tests run: the core is that of the native suite, with checked arithmetic and all of its features. How it is compiled must not matter.
+///
+/// What is compiled on the way lies beside the native suite's, the program by itself, as that suite builds one of the same name.
+pub(super) fn on_host(features: &str) -> Result<String> {
+    let folder = folder().join("host");
+    let mut cargo = checked_profile::cargo("build", &["--quiet", "--bin", HOST])?;
+    let of_host = features
+        .split_terminator(',')
+        .map(|name| format!("{HOST}/{name}"));
+    cargo.args(of_host.flat_map(|name| ["--features".to_owned(), name]));
+    cargo.env("CARGO_BUILD_BUILD_DIR", workspace::target_dir());
+    if !inputs_are_where_usual() {
+        cargo.env("FLUOROPOSE_FIRMWARE_INPUTS", inputs_folder());
+    }
+    command::run(cargo.arg("--target-dir").arg(&folder))?;
+    let program = format!("release/{HOST}{}", std::env::consts::EXE_SUFFIX);
+    command::output(&mut command::of_lane(folder.join(program)))
 }
 
-pub(super) fn build(toolchain: &Toolchain, features: &[&str]) -> Result<PathBuf> {
+pub(super) fn build(toolchain: &Toolchain, features: &str) -> Result<PathBuf> {
     let mut cargo = toolchain.cargo("build", &folder());
-    at_firmware(cargo.arg("--release")).args(features);
+    at_firmware(cargo.args(["--release", "--features", features]));
     // Debian's compiler brings no lints.
     if let Toolchain::Own { .. } = toolchain {
         components::lint(&mut cargo)?;

@@ -24,6 +24,13 @@ const EXAMPLES: [&str; 3] = [
     "outline_to_pose",
 ];
 
+/// Packages that have no tests in their sources: asked for by their kind, tests of theirs would be compiled none the less.
+const WITHOUT_TESTS: [&str; 3] = [
+    "fluoropose-browser",
+    "fluoropose-embedded",
+    "fluoropose-firmware-host",
+];
+
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
     report.step("native: formatting", || {
@@ -74,8 +81,9 @@ pub(crate) fn run(report: &mut Report) {
 fn in_the_sources(report: &mut Report) {
     // Asked for by its kind, even the extension's library would become a program, which it cannot be everywhere. It has no tests.
     let of_sources = |more: &[&str]| -> Result<Command> {
-        let mut cargo = checked_profile::cargo("test", &["--exclude", python::PACKAGE])?;
-        cargo.args(["--no-fail-fast", "--lib", "--bins"]).args(more);
+        let mut cargo = with_tests()?;
+        cargo.args(["--exclude", python::PACKAGE]);
+        cargo.args(["--lib", "--bins"]).args(more);
         Ok(cargo)
     };
     report.step("native: unit tests compiled, with lints", || {
@@ -84,6 +92,14 @@ fn in_the_sources(report: &mut Report) {
     report.step("native: tests in the sources", || {
         tests(&mut of_sources(&[])?, "sources")
     });
+}
+
+/// All that has tests in its sources.
+fn with_tests() -> Result<Command> {
+    let without = WITHOUT_TESTS.iter().flat_map(|name| ["--exclude", name]);
+    let mut cargo = checked_profile::cargo("test", &["--no-fail-fast"])?;
+    cargo.args(without);
+    Ok(cargo)
 }
 
 /// Steps that read what is built, and change nothing of it.
@@ -99,11 +115,7 @@ fn beside_the_tests(report: &mut Report) {
     });
     // These wait for cargo's lock.
     report.step("native: examples in the documentation", || {
-        let which = ["--no-fail-fast", "--doc"];
-        tests(
-            &mut checked_profile::cargo("test", &which)?,
-            "documentation",
-        )
+        tests(with_tests()?.arg("--doc"), "documentation")
     });
     report.step("native: pages of the crates", pages_of_the_crates);
 }
@@ -117,9 +129,12 @@ fn pages_of_the_crates() -> Result<Said> {
         "fluoropose-embedded",
     ];
     let packages = crates.iter().flat_map(|name| ["--package", name]);
-    // What they stand on is compiled for the tests.
-    let mut cargo = checked_profile::of_some("doc")?;
+    // What they stand on is compiled for the tests; lints were asked then.
+    let mut cargo = own_cargo();
+    cargo.arg("doc").args(checked_profile::CHECKED);
     cargo.args(["--no-deps", "--features", "fluoropose/alloc"]);
+    // It has no page: with it macros have the features with which they are compiled.
+    cargo.args(["--package", "xtask"]);
     quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
