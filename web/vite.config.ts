@@ -13,6 +13,13 @@ export default defineConfig(({ mode }) => ({
   oxc: { jsx: { runtime: 'automatic' as const, importSource: 'preact' } },
   ...(mode === 'embedded' ? {} : { worker: { format: 'es' as const } }),
   build: { target: 'es2022', assetsInlineLimit: 0 },
-  // Each file in a thread of its own, which begins sooner than a process.
-  test: { include: ['tests/**/*.test.ts'], environment: 'node' as const, pool: 'threads' as const },
+  test: {
+    include: ['tests/**/*.test.ts'],
+    environment: 'node' as const,
+    // Threads begin sooner than processes, and read the page's sources once for all their files, whose order is free: what a test puts in place of something goes with it.
+    pool: 'threads' as const,
+    isolate: false,
+    restoreMocks: true,
+    unstubGlobals: true,
+  },
 }));

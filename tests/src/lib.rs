@@ -86,6 +86,15 @@ pub fn tibia() -> Triangles {
     implant::tibia(&Parameters::default()).expect("the usual size is possible")
 }
 
+/// Femur and tibia with a third of the triangles, for tests in which models are drawn thousands of times.
+pub fn coarse_parts() -> [Triangles; 2] {
+    let parameters = Parameters {
+        resolution: 0.5,
+        ..Parameters::default()
+    };
+    [implant::femur(&parameters), implant::tibia(&parameters)].map(|part| part.expect("possible"))
+}
+
 /// A built-in implant with its edges, as it is drawn wherever poses are found.
 pub fn surface(triangles: Triangles) -> OwnedModel {
     owned(triangles).expect("built-in implants are valid")

@@ -38,7 +38,7 @@ impl Picture {
     pub(crate) fn plain(size: [usize; 2], Colour(colour): Colour) -> Self {
         Self {
             size,
-            pixels: vec![colour; size[0] * size[1]],
+            pixels: [colour].repeat(size[0] * size[1]),
             dots_per_m: None,
         }
     }
@@ -207,6 +207,10 @@ impl Picture {
 /// `part`: of 255 x 255.
 fn blend(pixel: &mut [u8; 3], colour: [u8; 3], part: u32) {
     const WHOLE: u32 = 255 * 255;
+    if part == WHOLE {
+        *pixel = colour;
+        return;
+    }
     for (below, above) in pixel.iter_mut().zip(colour) {
         let mixed = u32::from(above) * part + u32::from(*below) * (WHOLE - part);
         *below = ((mixed + WHOLE / 2) / WHOLE) as u8;

@@ -11,7 +11,7 @@ use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose_laboratory::files::read_model;
 use fluoropose_phantom::implant::{self, Parameters};
-use fluoropose_tests::{femur, study, surface, tibia, turned};
+use fluoropose_tests::{coarse_parts, femur, study, surface, tibia, turned};
 
 fn axes(mesh: &Mesh<'_>, component: KneeComponent) -> AnatomicalAxes {
     let planes = symmetry_planes(mesh);
@@ -78,8 +78,9 @@ fn follow_the_part(model: &OwnedModel, component: KneeComponent, name: &str) {
 
 #[test]
 fn the_axes_of_built_in_implants_follow_them() {
-    follow_the_part(&surface(femur()), KneeComponent::Femur, "femur");
-    follow_the_part(&surface(tibia()), KneeComponent::Tibia, "tibia");
+    let [femur, tibia] = coarse_parts();
+    follow_the_part(&surface(femur), KneeComponent::Femur, "femur");
+    follow_the_part(&surface(tibia), KneeComponent::Tibia, "tibia");
 }
 
 #[test]
@@ -217,6 +218,7 @@ fn a_flange_tells_the_knee_that_its_component_is_made_for_however_its_file_turns
     ] {
         let parameters = Parameters {
             side,
+            resolution: 0.5,
             ..Parameters::default()
         };
         let model = surface(implant::femur(&parameters).expect("usual"));

@@ -1,6 +1,5 @@
 //! A film followed by a caller that gives frames when they are asked for, as the page does.
 
-use fluoropose::camera::Camera;
 use fluoropose::follow::{
     Conclusion, Following, KnownFemur, State, Subject, Why, elsewhere, frame_pose_at, mirrored_pose,
 };
@@ -11,10 +10,12 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
-use fluoropose_tests::{femur, surface, tibia};
+use fluoropose_tests::{coarse_parts, surface};
 
-use crate::track::{SIDE, frame};
+use crate::track::{camera, frame};
 
+/// Of a frame, pixels.
+const SIDE: usize = 512;
 /// Of a film by which a leaning femur is told.
 const FRAMES: usize = 6;
 /// Grey value of a frame in which nothing is.
@@ -50,8 +51,7 @@ impl<'f> Given<'f> {
     fn give(&mut self, following: &mut Following, most: usize) {
         let model = surface(self.part.clone());
         let model = model.as_model();
-        let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
-        let camera = camera.expect("valid");
+        let camera = camera(SIDE);
         let planes = symmetry_planes(model.mesh());
         let subject = Subject::new(&model, &planes, &camera);
         let mut buffers = RefineBuffers::default();
@@ -109,12 +109,16 @@ fn assert_followed(film: &[Conclusion], truth: &[EulerPose], fixed: &[usize]) {
 
 #[test]
 fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
-    let (thigh, tray) = (femur(), tibia());
+    let [thigh, tray] = coarse_parts();
     let motion = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
     let frames: Vec<Vec<u8>> = (0..FRAMES)
         .map(|number| {
             let at = &motion[number];
-            frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], number)
+            frame(
+                SIDE,
+                [(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)],
+                number,
+            )
         })
         .collect();
     let truth = |of: fn(usize, &[Position]) -> EulerPose| {
@@ -181,9 +185,13 @@ fn leaning(femur: &KnownFemur, deg: f64) -> KnownFemur {
 
 #[test]
 fn from_a_false_pose_turned_to_any_side_the_right_one_is_seen_elsewhere() {
-    let (thigh, tray) = (femur(), tibia());
+    let [thigh, tray] = coarse_parts();
     let at = &deep_knee_bend(80, Side::Left, &thigh, 70.0, 1)[30];
-    let grey = frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], 0);
+    let grey = frame(
+        SIDE,
+        [(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)],
+        0,
+    );
     let frame = Frame::new(&grey, SIDE, SIDE, SIDE).expect("fits");
     let image = ImageTarget {
         frame: &frame,
@@ -191,8 +199,7 @@ fn from_a_false_pose_turned_to_any_side_the_right_one_is_seen_elsewhere() {
         polarity: Polarity::DarkImplant,
         film: None,
     };
-    let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
-    let camera = camera.expect("valid");
+    let camera = camera(SIDE);
     for (part, truth) in [
         (&thigh, Pose::from(at.femur)),
         (&tray, Pose::from(at.tibia)),
@@ -234,10 +241,16 @@ fn from_a_false_pose_turned_to_any_side_the_right_one_is_seen_elsewhere() {
 
 /// A femur that rests for some frames, is gone for ten, and rests elsewhere for eight; its poses before and after.
 fn interrupted(before: usize) -> (Triangles, [Pose; 2], Vec<Vec<u8>>) {
-    let (thigh, tray) = (femur(), tibia());
+    let [thigh, tray] = coarse_parts();
     let motion = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
     let [first, last] = [&motion[0], &motion[60]];
-    let seen = |at: &Position| frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], 0);
+    let seen = |at: &Position| {
+        frame(
+            SIDE,
+            [(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)],
+            0,
+        )
+    };
     let mut frames = vec![seen(first); before];
     frames.extend(vec![vec![EMPTY; SIDE * SIDE]; 10]);
     frames.extend(vec![seen(last); 8]);

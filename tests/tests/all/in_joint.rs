@@ -16,11 +16,12 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::finding::{Clicker, Neighbour, ViewOptions, build_library};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::Side;
-use fluoropose_tests::{femur, surface, tibia, turned};
+use fluoropose_tests::{coarse_parts, surface, turned};
 use fluoropose_tracing::one_click::Prompt;
 
-use crate::track::{SIDE, frame};
+use crate::track::{camera, frame};
 
+const SIDE: usize = 384;
 const KINDS: [KneeComponent; 2] = [KneeComponent::Femur, KneeComponent::Tibia];
 
 fn limb(model: &OwnedModel, component: KneeComponent) -> Limb<'_> {
@@ -35,13 +36,14 @@ fn limb(model: &OwnedModel, component: KneeComponent) -> Limb<'_> {
 
 /// Femur and tray, the same with their files' axes turned by `by`, and a knee that bends.
 fn knee(by: &Pose) -> ([OwnedModel; 2], Vec<[Pose; 2]>) {
-    let film: Vec<Position> = deep_knee_bend(24, Side::Left, &femur(), 70.0, 1);
+    let parts = coarse_parts();
+    let film: Vec<Position> = deep_knee_bend(24, Side::Left, &parts[0], 70.0, 1);
     let back = by.inverse();
     let poses = film.iter().map(|position| {
         [position.femur, position.tibia].map(|pose| Pose::from(pose).compose(&back))
     });
     (
-        [femur(), tibia()].map(|part| turned(&surface(part), by)),
+        parts.map(|part| turned(&surface(part), by)),
         poses.collect(),
     )
 }
@@ -90,11 +92,10 @@ impl Scene {
     /// With a tray that is so much darker than what surrounds it.
     fn of(darker: f64, number: usize) -> Self {
         let (models, _) = knee(&Pose::IDENTITY);
-        let (thigh, tray) = (femur(), tibia());
+        let [thigh, tray] = coarse_parts();
         let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
         let Position { femur, tibia, .. } = film[number];
-        let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
-        let camera = camera.expect("valid");
+        let camera = camera(SIDE);
         let mut femurs = vec![0; words_needed(SIDE, SIDE)];
         let mut mask = MaskMut::new(&mut femurs, SIDE, SIDE).expect("fits");
         let known = models[0].as_model();
@@ -102,7 +103,11 @@ impl Scene {
         let poses = [femur, tibia].map(Pose::from);
         render(&known, &camera, &poses[0], &mut scratch, &mut mask).expect("in front");
         Self {
-            grey: frame([(&thigh, femur, 120.0), (&tray, tibia, darker)], number),
+            grey: frame(
+                SIDE,
+                [(&thigh, femur, 120.0), (&tray, tibia, darker)],
+                number,
+            ),
             models,
             camera,
             poses,

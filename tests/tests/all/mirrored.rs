@@ -1,5 +1,7 @@
 //! A tray and its mirror image on a film that is known.
 
+use std::sync::OnceLock;
+
 use fluoropose::film::{FilmConstants, FilmModel};
 use fluoropose::finder::{Candidate, correct_candidates};
 use fluoropose::follow::{Anchor, From, Starts, Subject, frame_pose_at, refined_on_frame};
@@ -31,7 +33,13 @@ fn film() -> FilmModel {
     FilmModel::certain(FilmConstants::plain(1.0 / 38.0, 0.7), 0.2)
 }
 
-pub(crate) fn grey() -> Vec<u8> {
+/// The frame, which four tests want.
+pub(crate) fn grey() -> &'static [u8] {
+    static GREY: OnceLock<Vec<u8>> = OnceLock::new();
+    GREY.get_or_init(drawn)
+}
+
+fn drawn() -> Vec<u8> {
     let (femur, tibia, camera) = (femur(), tibia(), camera());
     let width_mm = Size::default().width_mm();
     let position = knee(TRUE, DEEPEST_DEG / 2.0, Side::Left, &femur, width_mm);
@@ -71,7 +79,7 @@ fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
     let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
     let model = model.as_model();
     let planes = symmetry_planes(model.mesh());
-    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let frame = Frame::new(pixels, camera.width(), camera.height(), camera.width());
     let frame = frame.expect("fits");
     let image = shown(&frame);
     let (options, mut buffers) = (RefineOptions::default(), RefineBuffers::default());
@@ -106,7 +114,7 @@ fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
 fn on_the_tray(work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>)) {
     let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
     let model = model.as_model();
-    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let frame = Frame::new(pixels, camera.width(), camera.height(), camera.width());
     let frame = frame.expect("fits");
     let image = shown(&frame);
     let subject = Subject::new(&model, &[], &camera);

@@ -46,7 +46,8 @@ impl Case {
         let parameters = Parameters {
             side,
             size,
-            ..Parameters::default()
+            // Its axes are the same with a third of the triangles.
+            resolution: 0.5,
         };
         let femur = implant::femur(&parameters).expect("possible");
         let tibia = implant::tibia(&parameters).expect("possible");

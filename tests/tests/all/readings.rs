@@ -81,7 +81,7 @@ fn a_model_that_was_moved_is_off_by_that_much_along_each_normal() {
 fn a_tray_at_its_pose_lies_on_the_edges_of_its_film_and_every_piece_stands_for_what_is_beside_it() {
     let (pixels, camera, model) = (mirrored::grey(), camera(), surface(tibia()));
     let model = model.as_model();
-    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let frame = Frame::new(pixels, camera.width(), camera.height(), camera.width());
     let frame = frame.expect("fits");
     let view = CameraView::only(&camera, mirrored::shown(&frame));
     let mut buffers = RefineBuffers::default();

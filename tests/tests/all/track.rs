@@ -15,11 +15,14 @@ use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
 use fluoropose_phantom::picture::write_grey;
 use fluoropose_phantom::stl;
-use fluoropose_tests::{femur, surface, tibia};
+use fluoropose_tests::{coarse_parts, surface};
 
-pub(crate) const SIDE: usize = 512;
+/// Where it does not matter how well a frame is resolved.
+const SIDE: usize = 256;
+/// Of a detector, mm.
+const DETECTOR: f64 = 381.952;
 const FRAMES: usize = 4;
-const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.746\n";
+const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n1.492\n";
 const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
 [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
 
@@ -36,22 +39,29 @@ impl Drop for Short {
     }
 }
 
+/// Of frames of so many pixels to a side.
+pub(crate) fn camera(side: usize) -> Camera {
+    let pitch = DETECTOR / side as f64;
+    Camera::from_principal_distance(side, side, 1200.0, pitch, [0.0, 0.0]).expect("valid")
+}
+
 /// Two components of different darkness, drawn four times as finely as they are seen, and a little noise.
-pub(crate) fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
+pub(crate) fn frame(
+    side: usize,
+    parts: [(&Triangles, EulerPose, f64); 2],
+    number: usize,
+) -> Vec<u8> {
     const FINE: usize = 4;
-    let side = SIDE * FINE;
-    let pitch = 0.746 / FINE as f64;
-    let camera = Camera::from_principal_distance(side, side, 1200.0, pitch, [0.0, 0.0]);
-    let camera = camera.expect("valid");
-    let mut grey = vec![200.0; SIDE * SIDE];
+    let fine = side * FINE;
+    let mut grey = vec![200.0; side * side];
     for (part, pose, darker) in parts {
         let model = surface(part.clone());
-        let mut words = vec![0; words_needed(side, side)];
-        let mut mask = MaskMut::new(&mut words, side, side).expect("fits");
+        let mut words = vec![0; words_needed(fine, fine)];
+        let mut mask = MaskMut::new(&mut words, fine, fine).expect("fits");
         let mut scratch = vec![Projected::default(); scratch_needed(&model.as_model())];
         render(
             &model.as_model(),
-            &camera,
+            &camera(fine),
             &pose.into(),
             &mut scratch,
             &mut mask,
@@ -59,7 +69,7 @@ pub(crate) fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> 
         .expect("in front");
         let mask = mask.into_mask();
         for (at, grey) in grey.iter_mut().enumerate() {
-            let (column, row) = (at % SIDE * FINE, at / SIDE * FINE);
+            let (column, row) = (at % side * FINE, at / side * FINE);
             let inside = (0..FINE * FINE)
                 .filter(|k| mask.get(column + k % FINE, row + k / FINE))
                 .count();
@@ -85,7 +95,7 @@ fn shown(name: &str, show: fn(u8) -> u8) -> Short {
     let folder =
         std::env::temp_dir().join(format!("fluoropose-track-{name}-{}", std::process::id()));
     fs::create_dir_all(folder.join("frames")).expect("a folder");
-    let (thigh, tray) = (femur(), tibia());
+    let [thigh, tray] = coarse_parts();
     let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
     for (number, position) in film.iter().take(FRAMES).enumerate() {
         let parts = [
@@ -93,7 +103,7 @@ fn shown(name: &str, show: fn(u8) -> u8) -> Short {
             (&tray, position.tibia, 70.0),
         ];
         let path = folder.join("frames").join(format!("{number:02}.png"));
-        let grey: Vec<u8> = frame(parts, number).into_iter().map(show).collect();
+        let grey: Vec<u8> = frame(SIDE, parts, number).into_iter().map(show).collect();
         write_grey(&path, (SIDE, SIDE), &grey).expect("a frame");
     }
     for (part, name) in [(&thigh, "femur.stl"), (&tray, "tibia.stl")] {

@@ -7,7 +7,8 @@ use std::process::{Command, Output};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::sequence::{self, Implants, Options};
 
 /// A folder of its own with two studies of two frames each, and one whose calibration is missing.
 struct Studies(PathBuf);
@@ -27,7 +28,8 @@ impl Studies {
             let options = Options {
                 frames: 4,
                 seed,
-                pixels: 512,
+                pixels: 256,
+                implants: Some(Implants::built_in(Side::Left, 0.5).expect("possible")),
                 ..Options::default()
             };
             let study = folder.join(name);
@@ -152,7 +154,7 @@ fn what_is_given_fits_the_film(studies: &Studies) {
     for (words, why) in [
         (
             ["--click", "femur:1:5000,20"],
-            "click femur:1:5000,20: column 5000, row 20 is not on the frame, which has 512 columns and 512 rows",
+            "click femur:1:5000,20: column 5000, row 20 is not on the frame, which has 256 columns and 256 rows",
         ),
         (["--click", "femur:1:20,-3"], "row -3 is not on the frame"),
         (["--click", "femur:1:nan,3"], "nan"),

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use fluoropose_phantom::implant::Parameters;
-use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::sequence::{self, Implants, Options};
 use fluoropose_phantom::{implant, picture, stl};
 
 /// A folder of its own.
@@ -82,7 +83,8 @@ fn whoever_ends_the_command_is_told_what_is_kept_and_how_to_go_on() {
     let options = Options {
         frames: 4,
         seed: 3,
-        pixels: 512,
+        pixels: 256,
+        implants: Some(Implants::built_in(Side::Left, 0.5).expect("possible")),
         ..Options::default()
     };
     sequence::write(&options, &folder.0).expect("a study");

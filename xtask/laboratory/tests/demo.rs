@@ -194,9 +194,10 @@ fn implants_are_dark_exactly_where_their_masks_are(folder: &Path) {
         .map(|name| read_mask(&folder.join("masks").join(name).join("0002.png")).unwrap());
     // Grey under the mask moved by (right - 1, down - 1).
     let under = |mask: &MaskBuffer, right: usize, down: usize| {
+        let mask = mask.mask();
         let places = (2..1022).flat_map(|row| (2..1022).map(move |column| (column, row)));
         places
-            .filter(|&(column, row)| mask.mask().get(column + 1 - right, row + 1 - down))
+            .filter(|&(column, row)| mask.get(column + 1 - right, row + 1 - down))
             .map(|(column, row)| f64::from(frame[row * 1024 + column]))
             .sum::<f64>()
     };

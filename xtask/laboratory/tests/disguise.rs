@@ -49,6 +49,7 @@ fn poses() -> [EulerPose; 2] {
 fn parts() -> [Triangles; 2] {
     let parameters = Parameters {
         side: Side::Left,
+        resolution: 0.5,
         ..Parameters::default()
     };
     [femur(&parameters).unwrap(), tibia(&parameters).unwrap()]

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::sequence::{self, Implants, Options};
 
 /// The frames' names, in their order, and the same by letters, as commands took them once.
 const NAMES: [&str; 3] = ["f1.png", "f2.png", "f10.png"];
@@ -27,7 +28,8 @@ impl Folder {
         let options = Options {
             frames: NAMES.len(),
             seed: 3,
-            pixels: 512,
+            pixels: 256,
+            implants: Some(Implants::built_in(Side::Left, 0.5).expect("possible")),
             ..Options::default()
         };
         sequence::write(&options, &folder.0).expect("a study");

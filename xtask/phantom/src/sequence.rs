@@ -58,12 +58,16 @@ pub struct Implants {
 }
 
 impl Implants {
-    fn built_in(side: Side) -> Result<Self> {
+    /// Those of the demonstration at the resolution 1; a film that is only followed is followed sooner with fewer triangles.
+    ///
+    /// # Errors
+    /// For a resolution that is not made.
+    pub fn built_in(side: Side, resolution: f64) -> Result<Self> {
         let size = Size::default();
         let parameters = Parameters {
             side,
             size,
-            resolution: 1.0,
+            resolution,
         };
         Ok(Self {
             parts: [implant::femur(&parameters)?, implant::tibia(&parameters)?],
@@ -171,7 +175,7 @@ pub fn write(options: &Options, out: &Path) -> Result<()> {
     }
     let implants = match &options.implants {
         Some(implants) => implants.clone(),
-        None => Implants::built_in(options.side)?,
+        None => Implants::built_in(options.side, 1.0)?,
     };
     let positions = options.positions(&implants.parts[0], implants.width_mm);
     write_texts(options, &positions, out)?;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::sequence::{self, Implants, Options};
 
 use super::checked_profile::{self, CHECKED};
 use super::counts;
@@ -177,8 +178,9 @@ fn tests(python: &Path, pattern: &str, package: Option<&Path>) -> Result<Said> {
     let options = Options {
         frames: 2,
         seed: 3,
-        // As `study.py` knows: numbers are as much the same in small frames.
+        // As `study.py` knows: numbers are as much the same in small frames, and of models with fewer triangles.
         pixels: 512,
+        implants: Some(Implants::built_in(Side::Left, 0.5)?),
         ..Options::default()
     };
     sequence::write(&options, &study)?;

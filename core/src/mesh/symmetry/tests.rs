@@ -145,7 +145,7 @@ fn distance(plane: &SymmetryPlane, pose: &Pose, point: &Vector3) -> f64 {
 }
 
 properties! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
     fn a_box_has_three_planes_wherever_it_is(pose in placement()) {
