@@ -13,6 +13,7 @@
 mod border;
 #[cfg(feature = "alloc")]
 mod buffers;
+mod common_distance;
 mod correct;
 mod correlation;
 mod depth;

@@ -5,6 +5,7 @@
 //! edges and outline.
 
 use super::border::{BorderPixel, NormalReading};
+use super::common_distance::{CommonDistance, times};
 use super::edge;
 use super::motion::Motion;
 use super::stages::Stage;
@@ -17,9 +18,9 @@ use crate::image::silhouette::CommonOffset;
 use crate::math::{inverse_spd, sqrt};
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
-/// Standard deviation of the common distance, pixels, where the film is known. Depths on synthetic films of nine kinds are off by
-/// 0.10 px of outline (femur) and 0.07 px (tray); edges enhanced, or cement beside them, move the femur's by 0.4 to 0.5 px. A
-/// judgement, not a fit.
+/// Standard deviation of the common distance, pixels, where the film is known and before its residuals say anything of it. Depths on
+/// synthetic films of nine kinds are off by 0.10 px of outline (femur) and 0.07 px (tray); edges enhanced, or cement beside them, move
+/// the femur's by 0.4 to 0.5 px. A judgement, not a fit.
 const KNOWN_PX: f64 = 0.1;
 /// Edges that move farther than this have jumped to others, pixels.
 const JUMP: f64 = 1.0;
@@ -32,6 +33,10 @@ pub(super) struct EdgeBias {
     pulls: [[f64; 6]; CONSTANTS + 1],
     correlation: [[f64; CONSTANTS]; CONSTANTS],
     any: bool,
+    /// What residuals on known films say of the common distance.
+    common: CommonDistance,
+    /// Whether there are other residuals.
+    others: bool,
 }
 
 /// Samples that are summed in 32 bits before their sum is added in 64.
@@ -77,7 +82,9 @@ impl EdgeBias {
         border: &[BorderPixel],
         lines: &[PathLine],
     ) {
-        match (&view.target, view.target.film().filter(|_| stage.drawn)) {
+        let film = view.target.film().filter(|_| stage.drawn);
+        self.others |= film.is_none();
+        match (&view.target, film) {
             (Target::Silhouette(silhouette), _) => {
                 let common = silhouette.common_offset().deviation_px;
                 self.add_moved((border, motion), common, |_, _| [0.0; CONSTANTS]);
@@ -104,6 +111,14 @@ impl EdgeBias {
         let deviations = core::array::from_fn(|k| sqrt(film.covariance[k][k].max(0.0)));
         self.correlation = correlation(film, &deviations);
         let changes = Changes::of(image, film, &deviations, stage);
+        let (border, motion) = samples;
+        for sample in border {
+            if let Some(residual) = sample.residual_px() {
+                let psi = stage.loss.pull(residual).into();
+                let jacobian = motion.jacobian(sample);
+                (self.common).add(sample.weight.into(), &jacobian, KNOWN_PX, psi);
+            }
+        }
         self.add_moved(samples, KNOWN_PX, |number, sample| {
             let line = lines.get(number);
             line.map_or([0.0; CONSTANTS], |line| changes.moves(sample, line))
@@ -136,10 +151,15 @@ impl EdgeBias {
     /// How far a pose may be off by each constant and by the common distance, where anything is known of them.
     fn shifts(&self) -> Option<[[f64; 6]; CONSTANTS + 1]> {
         let inverse = inverse_spd(&self.information).filter(|_| self.any)?;
-        let shift = |pull: [f64; 6]| {
-            inverse.map(|row| row.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>())
-        };
-        Some(self.pulls.map(shift))
+        Some(self.pulls.map(|pull| times(&inverse, &pull)))
+    }
+
+    /// The common distance by what residuals say of it, in usual ones. What traced a mask errs otherwise from corner to corner, and would hide it.
+    fn common(&self, shift: &[f64; 6], noise: f64) -> f64 {
+        match (self.others, &self.pulls) {
+            (false, [.., pull]) if cfg!(feature = "frames") => self.common.left(shift, pull, noise),
+            _ => 1.0,
+        }
     }
 
     /// See [`super::Assessment::film_steps`]: curvature and blur come first of the constants, so these are the first two
@@ -163,8 +183,8 @@ impl EdgeBias {
         [sum([1.0, of(0, 1), of(0, 2)]), sum([0.0, own, also])]
     }
 
-    /// Adds how far a pose may be off by it.
-    pub(super) fn widen(&self, covariance: PoseCovariance) -> PoseCovariance {
+    /// Adds how far a pose may be off by it. `noise` is the variance of what residuals pull by, times the length of outline that errs alike.
+    pub(super) fn widen(&self, covariance: PoseCovariance, noise: f64) -> PoseCovariance {
         let Some(shifts) = self.shifts() else {
             return covariance;
         };
@@ -173,6 +193,8 @@ impl EdgeBias {
         let (constants, [common]) = shifts.split_at(CONSTANTS) else {
             return covariance;
         };
+        let left = self.common(common, noise);
+        let common = &common.map(|value| left * value);
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
                 *value += of(common, row) * of(common, column);
@@ -291,11 +313,12 @@ mod tests {
             pulls,
             correlation,
             any: true,
+            ..EdgeBias::default()
         };
         let nothing = PoseCovariance {
             matrix: [[0.0; 6]; 6],
         };
-        let whole = bias.widen(nothing).matrix;
+        let whole = bias.widen(nothing, 1.0).matrix;
         let steps = bias.film_steps();
         for row in 0..6 {
             for column in 0..6 {

@@ -90,7 +90,7 @@ pub fn assess(
     })?;
     let covariance = sums.covariance();
     Ok(Assessment {
-        covariance: covariance.map(|covariance| bias.widen(covariance)),
+        covariance: covariance.map(|covariance| bias.widen(covariance, sums.noise_of_a_pixel())),
         film_steps: bias.film_steps(),
         fit,
     })
@@ -263,6 +263,11 @@ impl Sums {
     fn meat(&self) -> Matrix6 {
         let noise = self.noise / self.length.max(1.0);
         self.mixed(noise, &self.spread, LEAST_SPREAD)
+    }
+
+    /// Variance of what a pixel of length pulls by, where stretches that err alike do so independently; with rounding.
+    fn noise_of_a_pixel(&self) -> f64 {
+        self.noise / self.length.max(1.0) + GRAIN
     }
 
     /// A sum over the outline, mixed with as much of what it were if every pixel of length had the part `even` in it as leaves no combination of the six
