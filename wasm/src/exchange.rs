@@ -7,9 +7,9 @@ use fluoropose::image::contour::{Contour, Outline, Point};
 use fluoropose::image::frame::Pixel;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
-use fluoropose_browser::Float64Array;
 use fluoropose_tracing::simplify::{Simplify, simplify};
 use fluoropose_tracing::{List, Vertex};
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::error::sentence;

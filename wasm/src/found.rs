@@ -5,7 +5,7 @@ use fluoropose::image::mask::Word;
 use fluoropose::math::Vector3;
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose_browser::{Uint8Array, Uint32Array};
+use js_sys::{Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::choice::Chosen;

@@ -5,7 +5,7 @@ use fluoropose::image::mask::Word;
 use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::mesh::{OwnedModel, coarser};
 use fluoropose::render::Projected;
-use fluoropose_browser::Uint8Array;
+use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::calibration::calibration_of;

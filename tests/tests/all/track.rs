@@ -18,11 +18,11 @@ use fluoropose_phantom::stl;
 use fluoropose_tests::{coarse_parts, surface};
 
 /// Where it does not matter how well a frame is resolved.
-const SIDE: usize = 256;
+const SIDE: usize = 384;
 /// Of a detector, mm.
 const DETECTOR: f64 = 381.952;
 const FRAMES: usize = 4;
-const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n1.492\n";
+const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.994666666666667\n";
 const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
 [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
 

@@ -1,7 +1,7 @@
 //! What a page's worker calls. A file is moved into the module once, and what is decoded is moved out once. Errors arrive
 //! as a JavaScript `Error` whose message is the sentence.
 
-use fluoropose_browser::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
+use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::{DecodeError, FrameFile, GreyFrame, Model, Pixels, SpacingCalibration};

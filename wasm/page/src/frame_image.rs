@@ -4,9 +4,10 @@ use std::rc::Rc;
 
 use fluoropose::image::frame::{Frame, Grey, Pixel};
 use fluoropose::image::shuttered::Shuttered;
-use fluoropose_browser::{CanvasRenderingContext2d, Uint8Array, Uint16Array};
 use fluoropose_tracing::smoothed::{Scale, Smoothed};
+use js_sys::{Uint8Array, Uint16Array};
 use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
 
 use crate::covered::Covered;
 use crate::error::sentence;

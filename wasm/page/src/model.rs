@@ -8,8 +8,8 @@ use fluoropose::image::region::largest_region;
 use fluoropose::mesh::{OwnedModel, SuspectedUnit, suspected_unit};
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose_browser::CanvasRenderingContext2d;
 use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
 
 use crate::calibration::camera;
 use crate::distortion::Undistorter;

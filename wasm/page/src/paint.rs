@@ -1,7 +1,7 @@
 //! Pixels onto a canvas.
 
-use fluoropose_browser::{CanvasRenderingContext2d, ImageData};
 use wasm_bindgen::{Clamped, JsValue};
+use web_sys::{CanvasRenderingContext2d, ImageData};
 
 /// A pixel as a canvas takes it: red, green, blue and opacity.
 pub(crate) type Rgba = [u8; 4];

@@ -1,7 +1,7 @@
 //! The picture of unmatched pixels.
 
-use fluoropose_browser::CanvasRenderingContext2d;
 use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
 
 use crate::paint::{Rgba, opaque, put};
 

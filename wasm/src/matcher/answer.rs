@@ -1,6 +1,6 @@
 //! What came of a click or a box, and how sure it is.
 
-use fluoropose_browser::Float64Array;
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use crate::found::Match;

@@ -10,7 +10,7 @@ use fluoropose::locate::{LocatedPoses, locate, score_views};
 use fluoropose::pose::EulerPose;
 use fluoropose::search::Scores;
 use fluoropose::search::kernels::Kernels;
-use fluoropose_browser::Uint32Array;
+use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 
 use super::{MINIMA, Matcher};

@@ -25,11 +25,7 @@ const EXAMPLES: [&str; 3] = [
 ];
 
 /// Packages that have no tests in their sources: asked for by their kind, tests of theirs would be compiled none the less.
-const WITHOUT_TESTS: [&str; 3] = [
-    "fluoropose-browser",
-    "fluoropose-embedded",
-    "fluoropose-firmware-host",
-];
+const WITHOUT_TESTS: [&str; 2] = ["fluoropose-embedded", "fluoropose-firmware-host"];
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
