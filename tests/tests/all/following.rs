@@ -113,12 +113,9 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     let motion = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
     let frames: Vec<Vec<u8>> = (0..FRAMES)
         .map(|number| {
-            let at = &motion[number];
-            frame(
-                SIDE,
-                [(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)],
-                number,
-            )
+            let Position { femur, tibia, .. } = motion[number];
+            let parts = [(&thigh, femur, 120.0), (&tray, tibia, 70.0)];
+            frame(SIDE, parts, number)
         })
         .collect();
     let truth = |of: fn(usize, &[Position]) -> EulerPose| {
