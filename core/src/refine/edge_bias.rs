@@ -5,8 +5,9 @@
 //! edges and outline.
 
 use super::border::{BorderPixel, NormalReading};
-use super::common_distance::{CommonDistance, times};
+use super::common_distance::{CommonDistance, Errors, times};
 use super::edge;
+use super::loss::Loss;
 use super::motion::Motion;
 use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
@@ -111,18 +112,21 @@ impl EdgeBias {
         let deviations = core::array::from_fn(|k| sqrt(film.covariance[k][k].max(0.0)));
         self.correlation = correlation(film, &deviations);
         let changes = Changes::of(image, film, &deviations, stage);
-        let (border, motion) = samples;
-        for sample in border {
-            if let Some(residual) = sample.residual_px() {
-                let psi = stage.loss.pull(residual).into();
-                let jacobian = motion.jacobian(sample);
-                (self.common).add(sample.weight.into(), &jacobian, KNOWN_PX, psi);
-            }
-        }
+        self.add_common(stage.loss, samples);
         self.add_moved(samples, KNOWN_PX, |number, sample| {
             let line = lines.get(number);
             line.map_or([0.0; CONSTANTS], |line| changes.moves(sample, line))
         });
+    }
+
+    fn add_common(&mut self, loss: Loss, (border, motion): (&[BorderPixel], &Motion)) {
+        for sample in border {
+            if let Some(residual) = sample.residual_px() {
+                let jacobian = motion.jacobian(sample);
+                let psi = loss.pull(residual).into();
+                (self.common).add(sample.weight.into(), &jacobian, KNOWN_PX, psi);
+            }
+        }
     }
 
     /// Adds samples whose edges a constant's standard deviation would move so far, and `common` pixels all of them.
@@ -155,9 +159,11 @@ impl EdgeBias {
     }
 
     /// The common distance by what residuals say of it, in usual ones. What traced a mask errs otherwise from corner to corner, and would hide it.
-    fn common(&self, shift: &[f64; 6], noise: f64) -> f64 {
+    fn common(&self, shift: &[f64; 6], errors: Errors) -> f64 {
         match (self.others, &self.pulls) {
-            (false, [.., pull]) if cfg!(feature = "frames") => self.common.left(shift, pull, noise),
+            (false, [.., pull]) if cfg!(feature = "frames") => {
+                self.common.left(shift, pull, errors)
+            }
             _ => 1.0,
         }
     }
@@ -183,8 +189,8 @@ impl EdgeBias {
         [sum([1.0, of(0, 1), of(0, 2)]), sum([0.0, own, also])]
     }
 
-    /// Adds how far a pose may be off by it. `noise` is the variance of what residuals pull by, times the length of outline that errs alike.
-    pub(super) fn widen(&self, covariance: PoseCovariance, noise: f64) -> PoseCovariance {
+    /// Adds how far a pose may be off by it.
+    pub(super) fn widen(&self, covariance: PoseCovariance, errors: Errors) -> PoseCovariance {
         let Some(shifts) = self.shifts() else {
             return covariance;
         };
@@ -193,7 +199,7 @@ impl EdgeBias {
         let (constants, [common]) = shifts.split_at(CONSTANTS) else {
             return covariance;
         };
-        let left = self.common(common, noise);
+        let left = self.common(common, errors);
         let common = &common.map(|value| left * value);
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
@@ -318,7 +324,11 @@ mod tests {
         let nothing = PoseCovariance {
             matrix: [[0.0; 6]; 6],
         };
-        let whole = bias.widen(nothing, 1.0).matrix;
+        let errors = Errors {
+            noise: 1.0,
+            curvature: 1.0,
+        };
+        let whole = bias.widen(nothing, errors).matrix;
         let steps = bias.film_steps();
         for row in 0..6 {
             for column in 0..6 {

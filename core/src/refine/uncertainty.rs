@@ -10,6 +10,7 @@
 //! holds the pose less than the rest, and often it is the one stretch that holds a number.
 
 use super::border::BorderPixel;
+use super::common_distance::Errors;
 use super::correlation::{BLOCK, Correlation};
 use super::edge_bias::EdgeBias;
 use super::error::RefineError;
@@ -90,7 +91,7 @@ pub fn assess(
     })?;
     let covariance = sums.covariance();
     Ok(Assessment {
-        covariance: covariance.map(|covariance| bias.widen(covariance, sums.noise_of_a_pixel())),
+        covariance: covariance.map(|covariance| bias.widen(covariance, sums.errors())),
         film_steps: bias.film_steps(),
         fit,
     })
@@ -254,8 +255,7 @@ impl Sums {
     /// `H`, with as much of what it were with the mean of `psi'` everywhere as it needs: where residuals are large `psi'` is
     /// negative, and a part of the outline that lies on something else would hold a number the wrong way.
     fn bread(&self) -> Matrix6 {
-        let curvature = (self.curvature / self.length.max(1.0)).max(LEAST_CURVATURE);
-        self.mixed(curvature, &self.holding, LEAST_HOLD)
+        self.mixed(self.mean_curvature(), &self.holding, LEAST_HOLD)
     }
 
     /// `M`, with as much of what it were if the outline erred in independent stretches as it needs: a covariance that is cut where it first fails
@@ -265,9 +265,17 @@ impl Sums {
         self.mixed(noise, &self.spread, LEAST_SPREAD)
     }
 
-    /// Variance of what a pixel of length pulls by, where stretches that err alike do so independently; with rounding.
-    fn noise_of_a_pixel(&self) -> f64 {
-        self.noise / self.length.max(1.0) + GRAIN
+    /// How residuals err, with rounding.
+    fn errors(&self) -> Errors {
+        Errors {
+            noise: self.noise / self.length.max(1.0) + GRAIN,
+            curvature: self.mean_curvature(),
+        }
+    }
+
+    /// The mean of `psi'`.
+    fn mean_curvature(&self) -> f64 {
+        (self.curvature / self.length.max(1.0)).max(LEAST_CURVATURE)
     }
 
     /// A sum over the outline, mixed with as much of what it were if every pixel of length had the part `even` in it as leaves no combination of the six
