@@ -5,6 +5,11 @@ use super::side_samples::SideSample;
 use super::sides::Rival;
 #[cfg(feature = "alloc")]
 use super::sides::{Side, SideStep};
+#[cfg(feature = "alloc")]
+use crate::pose::geodesic_deg;
+
+/// The margin from which on another pose is less likely.
+pub(super) const DECIDES: f64 = 1.0;
 
 /// By how much another pose of a frame is less likely than its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +18,8 @@ pub struct SideMargin {
     pub rival: Rival,
     /// 1 is what a frame says that decides by itself.
     pub margin: f64,
+    /// How far the other pose is turned from this one, degrees.
+    pub apart_deg: f64,
 }
 
 #[cfg(feature = "alloc")]
@@ -35,15 +42,51 @@ pub(super) fn side_margin(
     frame: usize,
 ) -> Option<SideMargin> {
     let nearest = nearest(samples, frame)?;
-    let rival = samples[nearest].rival;
-    samples[nearest].free()?;
-    let step = steps.get(nearest)?;
-    let margin = match (rival, step.side) {
+    let margin = margin_in_sample(samples, steps, nearest)?;
+    let behind = samples[nearest].frame < frame;
+    let next = if behind {
+        nearest.checked_add(1)
+    } else {
+        nearest.checked_sub(1)
+    };
+    let next = next.and_then(|next| {
+        Some((
+            samples.get(next)?.frame,
+            margin_in_sample(samples, steps, next)?,
+        ))
+    });
+    // Two sides part or meet on the way to a frame that leaves it open; where that one is certain, so is what lies before it.
+    let apart_deg = match next.filter(|(_, next)| next.margin < DECIDES) {
+        Some((next_frame, next)) => {
+            let all = samples[nearest].frame.abs_diff(next_frame).max(1);
+            let part = samples[nearest].frame.abs_diff(frame) as f64 / all as f64;
+            let between = margin.apart_deg + part * (next.apart_deg - margin.apart_deg);
+            between.max(margin.apart_deg)
+        }
+        None => margin.apart_deg,
+    };
+    Some(SideMargin {
+        apart_deg,
+        ..margin
+    })
+}
+
+/// What a frame that was seen with another pose says of that.
+#[cfg(feature = "alloc")]
+fn margin_in_sample(samples: &[SideSample], steps: &[SideStep], at: usize) -> Option<SideMargin> {
+    let sample = samples.get(at)?;
+    let other = sample.free()?;
+    let step = steps.get(at)?;
+    let margin = match (sample.rival, step.side) {
         // Nothing went over to what leaves less.
         (Rival::Elsewhere, Side::Mirrored) => 0.0,
         _ => step.margin,
     };
-    Some(SideMargin { rival, margin })
+    Some(SideMargin {
+        rival: sample.rival,
+        margin,
+        apart_deg: geodesic_deg(&sample.own.pose.rotation, &other.pose.rotation),
+    })
 }
 
 /// The more likely of two other poses of a frame.
@@ -60,4 +103,41 @@ pub(super) fn nearer_rival(
 #[cfg(feature = "alloc")]
 pub(super) fn nearest(samples: &[SideSample], frame: usize) -> Option<usize> {
     (0..samples.len()).min_by_key(|&k| samples[k].frame.abs_diff(frame))
+}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::follow::fake::turned;
+    use std::vec::Vec;
+
+    /// Two frames, 4 and 10, with other poses so far off and so sure.
+    fn apart(others: [(f64, f64); 2], frame: usize) -> f64 {
+        let sample = |(k, (deg, _)): (usize, &(f64, f64))| SideSample {
+            frame: 4 + 6 * k,
+            own: turned(0.0, 0.3),
+            rival: Rival::Mirrored,
+            other: Some(turned(*deg, 0.3)),
+            fixed: false,
+        };
+        let samples: Vec<SideSample> = others.iter().enumerate().map(sample).collect();
+        let mut steps = [SideStep::default(); 2];
+        steps[0].margin = others[0].1;
+        steps[1].margin = others[1].1;
+        side_margin(&samples, &steps, frame).map_or(-1.0, |one| one.apart_deg)
+    }
+
+    #[test]
+    fn between_two_frames_that_leave_it_open_the_other_pose_is_as_far_as_between_theirs() {
+        let told = |others, expected: [f64; 4]| {
+            for (frame, expected) in [2, 6, 10, 12].into_iter().zip(expected) {
+                let apart = apart(others, frame);
+                assert!((apart - expected).abs() < 1e-9, "{frame}: {apart}");
+            }
+        };
+        told([(1.0, 0.5), (7.0, 0.5)], [1.0, 3.0, 7.0, 7.0]);
+        told([(7.0, 0.5), (1.0, 0.5)], [7.0, 7.0, 1.0, 1.0]);
+        // One that is certain tells what lies before the other.
+        told([(1.0, 0.5), (7.0, 2.0)], [1.0, 1.0, 7.0, 7.0]);
+    }
 }

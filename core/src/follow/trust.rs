@@ -3,7 +3,7 @@
 use super::distrust::Distrust;
 use super::frame_pose::FramePose;
 use super::motion::between;
-use super::side_margin::SideMargin;
+use super::side_margin::{DECIDES, SideMargin};
 use super::trail::{apart, in_plane};
 use crate::math::{Vector3, add, norm, scale, subtract};
 use crate::pose::Pose;
@@ -78,7 +78,7 @@ impl TrustLimits {
         jump_deg: 1.5,
         jump_mm: 2.0,
         jump_times: 5.0,
-        side: 1.0,
+        side: DECIDES,
         sd_deg: 1.5,
         depth_mm: 40.0,
         joint_mm: 60.0,
@@ -86,6 +86,14 @@ impl TrustLimits {
         met: 0.85,
         known: 0.6,
     };
+
+    /// How bad it is that another pose is as likely: not at all where that is hardly another one.
+    fn open(&self, other: &SideMargin) -> f64 {
+        match other.margin < self.side && other.apart_deg >= self.ways_deg {
+            true => 2.0 - other.margin,
+            false => 0.0,
+        }
+    }
 }
 
 /// How far the pose of a frame is to be trusted.
@@ -217,13 +225,8 @@ fn judge(
         worst.weigh(px / limits.fixed_misfit_px, apart);
         return worst;
     }
-    if let Some(SideMargin { rival, margin }) = one.side_margin {
-        let open = if margin < limits.side {
-            2.0 - margin
-        } else {
-            0.0
-        };
-        worst.weigh(open, Distrust::Side(rival));
+    if let Some(other) = &one.side_margin {
+        worst.weigh(limits.open(other), Distrust::Side(other.rival));
     }
     if let Some(other) = &one.other_way {
         let [deg, _] = apart(other, &found.pose, middle);
@@ -326,6 +329,7 @@ fn sort(values: impl Iterator<Item = f64>, room: &mut [f64]) -> &[f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::follow::Rival;
     use crate::follow::fake::turned;
 
     /// Whether the third of five frames is doubtful, 10 mm off the way between those beside it, and the other component so far.
@@ -351,6 +355,33 @@ mod tests {
         };
         judge_film(&film, &limits, &[0.0; 3], &mut sorted, &mut trusts);
         trusts[2].distrust.map(|why| why.word())
+    }
+
+    #[test]
+    fn another_pose_that_is_hardly_another_one_is_no_doubt() {
+        let trusted = |margin: f64, apart_deg: f64| {
+            let other = SideMargin {
+                rival: Rival::Mirrored,
+                margin,
+                apart_deg,
+            };
+            let film = [FrameEvidence {
+                found: Some(turned(0.0, 0.1)),
+                side_margin: Some(other),
+                ..FrameEvidence::default()
+            }];
+            let mut trusts = [Trust::default()];
+            judge_film(
+                &film,
+                &TrustLimits::USUAL,
+                &[0.0; 3],
+                &mut [0.0],
+                &mut trusts,
+            );
+            trusts[0].distrust.is_none()
+        };
+        assert!(trusted(0.0, 1.4) && trusted(1.1, 9.0));
+        assert!(!trusted(0.9, 1.6) && !trusted(0.0, 9.0));
     }
 
     #[test]
