@@ -136,7 +136,20 @@ impl SideStep {
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.
     pub(super) fn for_own(&self) -> f64 {
-        self.told() * self.for_own_of_two()
+        let told = self.told();
+        let residual = (told * self.residual()).clamp(-MOST, MOST);
+        if self.rival == Rival::Elsewhere {
+            return residual;
+        }
+        let both = self.own.knee.zip(self.mirrored.knee);
+        let knee = told * both.map_or(0.0, |(own, mirrored)| own.for_first(&mirrored));
+        match self.residual().abs() >= 1.0 {
+            // What differs between model and part is the same in all frames, and so are their residuals, and the right side may not have
+            // come to its minimum: where the knee tells otherwise, they do not tell by themselves.
+            true if residual * knee < 0.0 => residual + knee,
+            true => residual,
+            false => knee + HINT * residual,
+        }
     }
 
     /// How far both are two poses of which a frame can tell, 0 to 1: two sides of a mirror become one slowly.
@@ -147,26 +160,15 @@ impl SideEvidence {
         }
     }
 
-    /// The same of two that are far apart.
-    fn for_own_of_two(&self) -> f64 {
+    /// What the residuals of both say for the pose on the trail, 1 where they decide by themselves; however near both are, one that leaves
+    /// several times as much is not it.
+    fn residual(&self) -> f64 {
         let ratio = self.mirrored.misfit_px / self.own.misfit_px;
         let decisive = match self.rival {
             Rival::Mirrored => DECISIVE_RATIO,
             Rival::Elsewhere => ELSEWHERE_RATIO,
         };
-        let residual = ln(ratio.clamp(0.1, 10.0)) / ln(decisive);
-        if self.rival == Rival::Elsewhere {
-            return residual.clamp(-MOST, MOST);
-        }
-        let both = self.own.knee.zip(self.mirrored.knee);
-        let knee = both.map_or(0.0, |(own, mirrored)| own.for_first(&mirrored));
-        match residual.abs() >= 1.0 {
-            // What differs between model and part is the same in all frames, and so are their residuals, and the right side may not have
-            // come to its minimum: where the knee tells otherwise, they do not tell by themselves.
-            true if residual * knee < 0.0 => residual.clamp(-MOST, MOST) + knee,
-            true => residual.clamp(-MOST, MOST),
-            false => knee + HINT * residual,
-        }
+        ln(ratio.clamp(0.1, 10.0)) / ln(decisive)
     }
 
     /// What either side costs.
@@ -444,6 +446,9 @@ mod tests {
         let margin = |apart_deg: f64| chosen(&film(apart_deg))[1].1;
         assert!(margin(1.9) < margin(3.0) && margin(3.0) < margin(3.9));
         assert!(margin(1.9) < 1.0 && margin(3.9) > 1.0);
+        // One of the two leaves three times as much.
+        let film = [seen(0, 1.4, None, 12.0), seen(8, 3.0, None, 2.4)];
+        assert!(chosen(&film)[1].1 > 1.0);
     }
 
     #[test]
