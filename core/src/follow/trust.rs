@@ -4,6 +4,7 @@ use super::distrust::Distrust;
 use super::frame_pose::FramePose;
 use super::motion::between;
 use super::side_margin::{DECIDES, SideMargin};
+use super::sides::{Rival, SAME_DEG};
 use super::trail::{apart, in_plane};
 use crate::math::{Vector3, add, norm, scale, subtract};
 use crate::pose::Pose;
@@ -87,9 +88,10 @@ impl TrustLimits {
         known: 0.6,
     };
 
-    /// How bad it is that another pose is as likely: not at all where that is hardly another one.
+    /// How bad it is that another pose is as likely: not at all where a mirror image is hardly another one.
     fn open(&self, other: &SideMargin) -> f64 {
-        match other.margin < self.side && other.apart_deg >= self.ways_deg {
+        let is_one = other.rival == Rival::Mirrored && other.apart_deg < SAME_DEG;
+        match other.margin < self.side && !is_one {
             true => 2.0 - other.margin,
             false => 0.0,
         }
@@ -329,7 +331,6 @@ fn sort(values: impl Iterator<Item = f64>, room: &mut [f64]) -> &[f64] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::Rival;
     use crate::follow::fake::turned;
 
     /// Whether the third of five frames is doubtful, 10 mm off the way between those beside it, and the other component so far.
@@ -359,9 +360,9 @@ mod tests {
 
     #[test]
     fn another_pose_that_is_hardly_another_one_is_no_doubt() {
-        let trusted = |margin: f64, apart_deg: f64| {
+        let trusted = |rival: Rival, margin: f64, apart_deg: f64| {
             let other = SideMargin {
-                rival: Rival::Mirrored,
+                rival,
                 margin,
                 apart_deg,
             };
@@ -380,8 +381,10 @@ mod tests {
             );
             trusts[0].distrust.is_none()
         };
-        assert!(trusted(0.0, 1.4) && trusted(1.1, 9.0));
-        assert!(!trusted(0.9, 1.6) && !trusted(0.0, 9.0));
+        assert!(trusted(Rival::Mirrored, 0.0, 1.9) && trusted(Rival::Mirrored, 1.1, 9.0));
+        assert!(!trusted(Rival::Mirrored, 0.9, 2.1) && !trusted(Rival::Mirrored, 0.0, 9.0));
+        // One that leaves less is the better pose, however near it is.
+        assert!(!trusted(Rival::Elsewhere, 0.0, 1.9));
     }
 
     #[test]
