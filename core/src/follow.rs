@@ -66,6 +66,7 @@ mod state;
 mod subject;
 mod trail;
 mod trust;
+mod trust_limits;
 mod valley;
 mod way;
 
@@ -120,5 +121,6 @@ pub use starts::Starts;
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};
-pub use trust::{FrameEvidence, Trust, TrustLimits, judge_film};
+pub use trust::{FrameEvidence, Trust, judge_film};
+pub use trust_limits::TrustLimits;
 pub use way::Way;

@@ -13,7 +13,7 @@ use super::meeting::{have_met, join_ways};
 use super::motion::between;
 use super::sides::{ELSEWHERE_RATIO, MOST, ONE_DEG};
 use super::trail::{Usual, apart};
-use super::trust::TrustLimits;
+use super::trust_limits::TrustLimits;
 use super::way::Way;
 use crate::math::{Vector3, ln};
 use crate::mesh::mirror::mirror_pose;

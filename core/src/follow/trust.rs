@@ -3,9 +3,9 @@
 use super::distrust::Distrust;
 use super::frame_pose::FramePose;
 use super::motion::between;
-use super::side_margin::{DECIDES, SideMargin};
-use super::sides::{Rival, SAME_DEG};
+use super::side_margin::SideMargin;
 use super::trail::{apart, in_plane};
+use super::trust_limits::TrustLimits;
 use crate::math::{Vector3, add, norm, scale, subtract};
 use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
@@ -31,72 +31,6 @@ const BEHIND: f64 = 1e3;
 const IMPLAUSIBLE_SIZE: f64 = 2e3;
 /// A rotation of which nothing is known.
 const ALL_DEG: f64 = 180.0;
-
-/// Limits of trust.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrustLimits {
-    /// Most misfit, in usual ones of the film: in what its better frames leave, because all may move in the others while they are exposed.
-    pub misfit: f64,
-    /// A usual misfit below this counts as so much, pixels.
-    pub least_misfit_px: f64,
-    /// Most misfit whatever is usual, pixels: a film may be wrong as a whole.
-    pub most_misfit_px: f64,
-    /// The same of a pose that a person gave, who does not see a pixel: one that leaves more lies on something else, or in another
-    /// frame.
-    pub fixed_misfit_px: f64,
-    /// Least strength of the edges, in usual ones of the film.
-    pub strength: f64,
-    /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
-    pub jump_deg: f64,
-    /// The same along the image plane, mm, of what the other component does not do too.
-    pub jump_mm: f64,
-    /// Both in usual ones of the film.
-    pub jump_times: f64,
-    /// Least margin between the sides of the mirror.
-    pub side: f64,
-    /// Largest standard deviation of the rotation, degrees.
-    pub sd_deg: f64,
-    /// Farthest from the other component along the view, against what is usual in the film, mm.
-    pub depth_mm: f64,
-    /// The same whatever is usual: both belong to one joint.
-    pub joint_mm: f64,
-    /// Two ways to one frame may differ by this much, degrees.
-    pub ways_deg: f64,
-    /// Least part of the outline that is met.
-    pub met: f64,
-    /// Least part of the outline that is known.
-    pub known: f64,
-}
-
-impl TrustLimits {
-    /// The usual ones.
-    pub const USUAL: Self = Self {
-        misfit: 2.3,
-        least_misfit_px: 0.2,
-        most_misfit_px: 0.9,
-        fixed_misfit_px: 2.0,
-        strength: 0.6,
-        jump_deg: 1.5,
-        jump_mm: 2.0,
-        jump_times: 5.0,
-        side: DECIDES,
-        sd_deg: 1.5,
-        depth_mm: 40.0,
-        joint_mm: 60.0,
-        ways_deg: 1.5,
-        met: 0.85,
-        known: 0.6,
-    };
-
-    /// How bad it is that another pose is as likely: not at all where a mirror image is hardly another one.
-    fn open(&self, other: &SideMargin) -> f64 {
-        let is_one = other.rival == Rival::Mirrored && other.apart_deg < SAME_DEG;
-        match other.margin < self.side && !is_one {
-            true => 2.0 - other.margin,
-            false => 0.0,
-        }
-    }
-}
 
 /// How far the pose of a frame is to be trusted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -356,35 +290,6 @@ mod tests {
         };
         judge_film(&film, &limits, &[0.0; 3], &mut sorted, &mut trusts);
         trusts[2].distrust.map(|why| why.word())
-    }
-
-    #[test]
-    fn another_pose_that_is_hardly_another_one_is_no_doubt() {
-        let trusted = |rival: Rival, margin: f64, apart_deg: f64| {
-            let other = SideMargin {
-                rival,
-                margin,
-                apart_deg,
-            };
-            let film = [FrameEvidence {
-                found: Some(turned(0.0, 0.1)),
-                side_margin: Some(other),
-                ..FrameEvidence::default()
-            }];
-            let mut trusts = [Trust::default()];
-            judge_film(
-                &film,
-                &TrustLimits::USUAL,
-                &[0.0; 3],
-                &mut [0.0],
-                &mut trusts,
-            );
-            trusts[0].distrust.is_none()
-        };
-        assert!(trusted(Rival::Mirrored, 0.0, 1.9) && trusted(Rival::Mirrored, 1.1, 9.0));
-        assert!(!trusted(Rival::Mirrored, 0.9, 2.1) && !trusted(Rival::Mirrored, 0.0, 9.0));
-        // One that leaves less is the better pose, however near it is.
-        assert!(!trusted(Rival::Elsewhere, 0.0, 1.9));
     }
 
     #[test]
