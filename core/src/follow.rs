@@ -44,6 +44,8 @@ mod joint_search;
 mod known_femur;
 mod look;
 mod meeting;
+#[cfg(feature = "alloc")]
+mod merged_sides;
 mod mirrored;
 mod motion;
 mod near;

@@ -13,6 +13,7 @@ use super::false_minimum::{ROUNDS, leaves_less, runs_elsewhere};
 use super::frame_pose::FramePose;
 use super::known_femur::KnownFemur;
 use super::look::Looked;
+use super::merged_sides::widen_where_sides_are_one;
 use super::other_margins::other_margins;
 use super::second_look::{SecondLook, second_looks};
 use super::side_margin::SideMargin;
@@ -167,7 +168,11 @@ impl Settling {
                 Phase::Cross => self.cross(cells, Phase::Again),
                 Phase::Again => (self.looks_again(cells), Phase::Mended),
                 Phase::Mended => (None, self.after_mending(cells)),
-                Phase::Over => return None,
+                Phase::Over => {
+                    let margins = self.margins(cells);
+                    widen_where_sides_are_one(&self.samples, &margins, cells, &self.middle);
+                    return None;
+                }
             };
             self.phase = phase;
             if step.is_some() {

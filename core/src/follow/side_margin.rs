@@ -2,7 +2,7 @@
 
 #[cfg(feature = "alloc")]
 use super::side_samples::SideSample;
-use super::sides::Rival;
+use super::sides::{Rival, SAME_DEG};
 #[cfg(feature = "alloc")]
 use super::sides::{Side, SideStep};
 #[cfg(feature = "alloc")]
@@ -22,9 +22,20 @@ pub struct SideMargin {
     pub apart_deg: f64,
 }
 
-#[cfg(feature = "alloc")]
 impl SideMargin {
+    /// Whether the other pose is less likely by as much as decides.
+    #[cfg(feature = "alloc")]
+    pub(super) fn decides(&self) -> bool {
+        self.margin >= DECIDES
+    }
+
+    /// Whether the other pose is a mirror image that is hardly another one.
+    pub(super) fn is_one_pose(&self) -> bool {
+        self.rival == Rival::Mirrored && self.apart_deg < SAME_DEG
+    }
+
     /// The same where either pose may be the right one.
+    #[cfg(feature = "alloc")]
     pub(super) fn open(self) -> Self {
         Self {
             margin: 0.0,
@@ -56,7 +67,7 @@ pub(super) fn side_margin(
         ))
     });
     // Two sides part or meet on the way to a frame that leaves it open; where that one is certain, so is what lies before it.
-    let apart_deg = match next.filter(|(_, next)| next.margin < DECIDES) {
+    let apart_deg = match next.filter(|(_, next)| !next.decides()) {
         Some((next_frame, next)) => {
             let all = samples[nearest].frame.abs_diff(next_frame).max(1);
             let part = samples[nearest].frame.abs_diff(frame) as f64 / all as f64;

@@ -167,7 +167,7 @@ impl SideSample {
     /// The mirror image of what a cell has now, which may have gone over to the other side since both were seen.
     #[must_use]
     pub fn mirrored_now(&self, now: &FramePose) -> Option<FramePose> {
-        match now == &self.own {
+        match now.pose == self.own.pose {
             true => self.other,
             false => Some(self.own),
         }

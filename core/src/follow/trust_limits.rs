@@ -1,7 +1,6 @@
 //! What makes a pose of a film doubtful.
 
 use super::side_margin::{DECIDES, SideMargin};
-use super::sides::{Rival, SAME_DEG};
 
 /// Limits of trust.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,8 +60,7 @@ impl TrustLimits {
 
     /// How bad it is that another pose is as likely: not at all where a mirror image is hardly another one.
     pub(super) fn open(&self, other: &SideMargin) -> f64 {
-        let is_one = other.rival == Rival::Mirrored && other.apart_deg < SAME_DEG;
-        match other.margin < self.side && !is_one {
+        match other.margin < self.side && !other.is_one_pose() {
             true => 2.0 - other.margin,
             false => 0.0,
         }
@@ -72,6 +70,7 @@ impl TrustLimits {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::follow::Rival;
 
     #[test]
     fn another_pose_that_is_hardly_another_one_is_no_doubt() {
