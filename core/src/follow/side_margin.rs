@@ -100,14 +100,18 @@ fn margin_in_sample(samples: &[SideSample], steps: &[SideStep], at: usize) -> Op
     })
 }
 
-/// The more likely of two other poses of a frame.
+/// The more likely of two other poses of a frame: one that is a pose of its own before one that is hardly another.
 #[cfg(feature = "alloc")]
 pub(super) fn nearer_rival(
     one: Option<SideMargin>,
     other: Option<SideMargin>,
 ) -> Option<SideMargin> {
+    let open = |rival: &SideMargin| (rival.decides(), rival.is_one_pose());
     let both = one.into_iter().chain(other);
-    both.min_by(|one, other| one.margin.total_cmp(&other.margin))
+    both.min_by(|one, other| {
+        let by_margin = one.margin.total_cmp(&other.margin);
+        open(one).cmp(&open(other)).then(by_margin)
+    })
 }
 
 /// The sample that is nearest to a frame.
@@ -136,6 +140,23 @@ mod tests {
         steps[0].margin = others[0].1;
         steps[1].margin = others[1].1;
         side_margin(&samples, &steps, frame).map_or(-1.0, |one| one.apart_deg)
+    }
+
+    #[test]
+    fn a_pose_elsewhere_is_not_hidden_by_a_mirror_image_that_is_hardly_another_pose() {
+        let rival = |rival, margin, apart_deg| SideMargin {
+            rival,
+            margin,
+            apart_deg,
+        };
+        let hardly = rival(Rival::Mirrored, 0.2, 1.5);
+        let nearer = |other: SideMargin| {
+            let both = [(hardly, other), (other, hardly)];
+            both.map(|(one, other)| nearer_rival(Some(one), Some(other)))
+        };
+        let open = rival(Rival::Elsewhere, 0.8, 5.0);
+        assert_eq!(nearer(open), [Some(open); 2]);
+        assert_eq!(nearer(rival(Rival::Elsewhere, 1.2, 5.0)), [Some(hardly); 2]);
     }
 
     #[test]
