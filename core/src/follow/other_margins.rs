@@ -29,8 +29,9 @@ pub fn other_margins(
 ) -> Vec<Option<SideMargin>> {
     let open = contradicted(samples, cells, usual_misfit(cells));
     let mirrored = |frame: usize| {
-        let margin = side_margin(samples, steps, frame)?;
         let nearest = nearest(samples, frame)?;
+        let margin =
+            side_margin(samples, steps, frame)?.apart_as(&samples[nearest], cells.get(frame));
         let is_open = open[nearest]
             || is_better_seen(samples, frame, cells)
             || is_rejected(samples, steps, frame, cells);
@@ -205,6 +206,23 @@ mod tests {
         assert_eq!(margin(&cells), Some(5.0));
         cells[5] = Cell::from(&Anchor::found(5, turned(39.0, CHOSEN)));
         assert_eq!(margin(&cells), Some(0.0));
+    }
+
+    /// Frame 4 is the last that was seen from both sides, where these meet; the part turns on.
+    #[test]
+    fn sides_that_part_behind_the_last_frame_that_was_seen_are_two_poses_there() {
+        let (all, mut cells) = film([0.62; 7], None);
+        let samples = [SideSample {
+            other: Some(turned(1.5, 0.62)),
+            ..all[4]
+        }];
+        let at = |frame, deg: f64| Cell::from(&Anchor::found(frame, turned(deg, CHOSEN)));
+        (cells[5], cells[6]) = (at(5, -0.2), at(6, -2.5));
+        let margins = other_margins(&samples, &[SideStep::default()], &[], &cells);
+        let apart = |frame: usize| margins[frame].map_or(-1.0, |one| one.apart_deg);
+        for (frame, expected) in [(4, 1.5), (5, 1.9), (6, 6.5)] {
+            assert!((apart(frame) - expected).abs() < 0.01, "{}", apart(frame));
+        }
     }
 
     /// Frames 0, 3 and 6 were seen from both sides.

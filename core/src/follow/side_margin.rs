@@ -1,12 +1,16 @@
 //! By how much the pose of a frame is more likely than another one.
 
 #[cfg(feature = "alloc")]
+use super::cell::Cell;
+#[cfg(feature = "alloc")]
 use super::side_samples::SideSample;
 use super::sides::{Rival, SAME_DEG};
 #[cfg(feature = "alloc")]
 use super::sides::{Side, SideStep};
 #[cfg(feature = "alloc")]
-use crate::pose::geodesic_deg;
+use crate::math::{add, dot, scale, subtract};
+#[cfg(feature = "alloc")]
+use crate::pose::{Pose, geodesic_deg};
 
 /// The margin from which on another pose is less likely.
 pub(super) const DECIDES: f64 = 1.0;
@@ -34,6 +38,19 @@ impl SideMargin {
         self.rival == Rival::Mirrored && self.apart_deg < SAME_DEG
     }
 
+    /// The same in a frame whose pose is another than that of the one that was seen: sides that meet there may have parted here.
+    #[cfg(feature = "alloc")]
+    pub(super) fn apart_as(self, seen: &SideSample, cell: Option<&Cell>) -> Self {
+        let now = cell.and_then(Cell::found);
+        let times = now
+            .zip(seen.other.as_ref())
+            .map(|(now, other)| times_apart([&seen.own.pose, &other.pose], &now.pose));
+        Self {
+            apart_deg: self.apart_deg * times.unwrap_or(1.0),
+            ..self
+        }
+    }
+
     /// The same where either pose may be the right one.
     #[cfg(feature = "alloc")]
     pub(super) fn open(self) -> Self {
@@ -53,41 +70,9 @@ pub(super) fn side_margin(
     frame: usize,
 ) -> Option<SideMargin> {
     let nearest = nearest(samples, frame)?;
-    let margin = margin_in_sample(samples, steps, nearest)?;
-    let behind = samples[nearest].frame < frame;
-    let next = if behind {
-        nearest.checked_add(1)
-    } else {
-        nearest.checked_sub(1)
-    };
-    let next = next.and_then(|next| {
-        Some((
-            samples.get(next)?.frame,
-            margin_in_sample(samples, steps, next)?,
-        ))
-    });
-    // Two sides part or meet on the way to a frame that leaves it open; where that one is certain, so is what lies before it.
-    let apart_deg = match next.filter(|(_, next)| !next.decides()) {
-        Some((next_frame, next)) => {
-            let all = samples[nearest].frame.abs_diff(next_frame).max(1);
-            let part = samples[nearest].frame.abs_diff(frame) as f64 / all as f64;
-            let between = margin.apart_deg + part * (next.apart_deg - margin.apart_deg);
-            between.max(margin.apart_deg)
-        }
-        None => margin.apart_deg,
-    };
-    Some(SideMargin {
-        apart_deg,
-        ..margin
-    })
-}
-
-/// What a frame that was seen with another pose says of that.
-#[cfg(feature = "alloc")]
-fn margin_in_sample(samples: &[SideSample], steps: &[SideStep], at: usize) -> Option<SideMargin> {
-    let sample = samples.get(at)?;
+    let sample = &samples[nearest];
     let other = sample.free()?;
-    let step = steps.get(at)?;
+    let step = steps.get(nearest)?;
     let margin = match (sample.rival, step.side) {
         // Nothing went over to what leaves less.
         (Rival::Elsewhere, Side::Mirrored) => 0.0,
@@ -98,6 +83,20 @@ fn margin_in_sample(samples: &[SideSample], steps: &[SideStep], at: usize) -> Op
         margin,
         apart_deg: geodesic_deg(&sample.own.pose.rotation, &other.pose.rotation),
     })
+}
+
+/// How many times as far from its mirror image as the poses that a frame was seen with are from each other another pose of the part is, that
+/// lies near them: by the directions it is seen from, of which mirror images lie alike on both sides of a plane. 1 where both are seen from one.
+#[cfg(feature = "alloc")]
+pub(super) fn times_apart([own, other]: [&Pose; 2], now: &Pose) -> f64 {
+    let [own, other, now] = [own, other, now].map(|pose| pose.rotation[2]);
+    let half = scale(&subtract(&own, &other), 0.5);
+    let squared = dot(&half, &half);
+    let middle = scale(&add(&own, &other), 0.5);
+    match squared > 0.0 {
+        true => (dot(&subtract(&now, &middle), &half) / squared).abs(),
+        false => 1.0,
+    }
 }
 
 /// The more likely of two other poses of a frame: one that is a pose of its own before one that is hardly another.
@@ -124,23 +123,9 @@ pub(super) fn nearest(samples: &[SideSample], frame: usize) -> Option<usize> {
 mod tests {
     use super::*;
     use crate::follow::fake::turned;
-    use std::vec::Vec;
-
-    /// Two frames, 4 and 10, with other poses so far off and so sure.
-    fn apart(others: [(f64, f64); 2], frame: usize) -> f64 {
-        let sample = |(k, (deg, _)): (usize, &(f64, f64))| SideSample {
-            frame: 4 + 6 * k,
-            own: turned(0.0, 0.3),
-            rival: Rival::Mirrored,
-            other: Some(turned(*deg, 0.3)),
-            fixed: false,
-        };
-        let samples: Vec<SideSample> = others.iter().enumerate().map(sample).collect();
-        let mut steps = [SideStep::default(); 2];
-        steps[0].margin = others[0].1;
-        steps[1].margin = others[1].1;
-        side_margin(&samples, &steps, frame).map_or(-1.0, |one| one.apart_deg)
-    }
+    use crate::math::{multiply, radians, rotation_by};
+    use proptest::array::uniform3;
+    use proptest::prelude::*;
 
     #[test]
     fn a_pose_elsewhere_is_not_hidden_by_a_mirror_image_that_is_hardly_another_pose() {
@@ -159,17 +144,22 @@ mod tests {
         assert_eq!(nearer(rival(Rival::Elsewhere, 1.2, 5.0)), [Some(hardly); 2]);
     }
 
-    #[test]
-    fn between_two_frames_that_leave_it_open_the_other_pose_is_as_far_as_between_theirs() {
-        let told = |others, expected: [f64; 4]| {
-            for (frame, expected) in [2, 6, 10, 12].into_iter().zip(expected) {
-                let apart = apart(others, frame);
-                assert!((apart - expected).abs() < 1e-9, "{frame}: {apart}");
-            }
-        };
-        told([(1.0, 0.5), (7.0, 0.5)], [1.0, 3.0, 7.0, 7.0]);
-        told([(7.0, 0.5), (1.0, 0.5)], [7.0, 7.0, 1.0, 1.0]);
-        // One that is certain tells what lies before the other.
-        told([(1.0, 0.5), (7.0, 2.0)], [1.0, 1.0, 7.0, 7.0]);
+    properties! {
+        /// A part at any place of the camera's frame, in any axes of its model.
+        #[test]
+        fn a_pose_is_as_far_from_its_mirror_image_as_its_view_says(
+            model in uniform3(-1.8..1.8f64), swing in -0.9..0.9f64,
+            near in 0.2..1.0f64, far in -6.0..6.0f64, aside in -3.0..3.0f64,
+        ) {
+            let model = rotation_by(&model);
+            let seen = |out_deg: f64, aside_deg: f64| {
+                let mut pose = turned(0.0, 0.3).pose;
+                let turn = rotation_by(&[radians(out_deg), radians(aside_deg), 0.0]);
+                pose.rotation = multiply(&rotation_by(&[0.0, 0.0, swing]), &multiply(&turn, &model));
+                pose
+            };
+            let times = times_apart([&seen(near, 0.0), &seen(-near, 0.0)], &seen(far, aside));
+            prop_assert!((times - (far / near).abs()).abs() < 0.01 + 0.01 * (far / near).abs(), "{times}");
+        }
     }
 }
