@@ -4,7 +4,7 @@
 //! seed stays. Distances are those of the chamfer 3-4 (Borgefors, *Distance transformations in digital images*, CVGIP 34,
 //! 1986).
 
-use super::window::{LEVELS, Window};
+use super::window::{Window, step_between};
 use fluoropose::image::mask::MaskMut;
 
 /// Chamfer lengths of a step to the side, and across a corner.
@@ -266,10 +266,9 @@ pub(super) fn sharpness(window: &Window, grey: &[u16], marks: &[u8]) -> f64 {
     {
         window.neighbours(index, |next| {
             let outside = marks.get(next).is_some_and(|mark| mark & KEPT == 0);
-            let step = |pixel: usize| grey.get(pixel).copied().unwrap_or(0).min(LEVELS as u16);
             if outside {
                 sides += 1;
-                sum += i64::from(step(next)) - i64::from(step(index));
+                sum += i64::from(step_between(grey, index, next));
             }
         });
     }

@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::background::BACKGROUND;
 use super::flooding::NEVER;
-use super::window::{LEVELS, Window};
+use super::window::{LEVELS, Window, step_between};
 use fluoropose::shortlist;
 
 /// Length of the working memory.
@@ -59,8 +59,7 @@ impl<'m> ThresholdStatistics<'m> {
                 if here >= there {
                     return;
                 }
-                let step = |pixel: usize| grey.get(pixel).copied().unwrap_or(0).min(LEVELS as u16);
-                let step = u32::from(step(index).abs_diff(step(next)));
+                let step = step_between(grey, index, next).unsigned_abs();
                 enter(sides, here, 1);
                 enter(sides, there, 1u32.wrapping_neg());
                 enter(contrast, here, step);

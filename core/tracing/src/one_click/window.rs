@@ -84,6 +84,14 @@ impl Window {
     }
 }
 
+/// How much brighter the second of two pixels is, levels. What is not of the picture, or excluded, is no border of anything, however bright the
+/// other is: 0.
+pub(super) fn step_between(grey: &[u16], one: usize, other: usize) -> i32 {
+    let level = |pixel: usize| grey.get(pixel).copied().filter(|&level| level != BLOCKED);
+    let steps = level(one).zip(level(other));
+    steps.map_or(0, |(one, other)| i32::from(other) - i32::from(one))
+}
+
 /// How a window is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reading {
@@ -324,6 +332,14 @@ mod tests {
                 if inverted { 4095 - value } else { value }
             })
             .collect()
+    }
+
+    #[test]
+    fn what_is_not_of_the_picture_is_no_step() {
+        let grey = [5, 900, BLOCKED];
+        let steps =
+            [[0, 1], [1, 0], [0, 2], [2, 1], [1, 9]].map(|[a, b]| step_between(&grey, a, b));
+        assert_eq!(steps, [895, -895, 0, 0, 0]);
     }
 
     #[test]
