@@ -16,8 +16,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::OneClickBuffers;
-use fluoropose_tracing::reduced::ReducedPixels;
-use fluoropose_tracing::whole_frame::WholeFrame;
+use fluoropose_tracing::whole_frame::{WholeFrame, Written};
 use wasm_bindgen::prelude::*;
 
 use self::other::{Beside, Other};
@@ -71,7 +70,7 @@ impl Search {
         image: &ImageTarget<'_>,
         component: &Component<'_>,
         (finder, own, refine): (&mut FinderBuffers, &mut OneClickBuffers, &mut RefineBuffers),
-        written: ReducedPixels<'_>,
+        written: Written<'_>,
     ) -> Result<bool, JsError> {
         let (model, camera) = (subject.model, subject.camera);
         match self {
@@ -268,7 +267,7 @@ impl FrameSearch {
                 });
             }
             kept.as_mut().map_or(Ok(false), |search| {
-                let written = for_places.reduced();
+                let written = for_places.written();
                 search.go_on(&subject, image, &component, (finder, own, refine), written)
             })
         };

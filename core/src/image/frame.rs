@@ -280,6 +280,30 @@ pub trait Grey {
     ) -> Option<()>;
 }
 
+impl<G: Grey + ?Sized> Grey for &G {
+    fn size(&self) -> (usize, usize) {
+        (**self).size()
+    }
+
+    fn at(&self, column: f64, row: f64) -> Option<f64> {
+        (**self).at(column, row)
+    }
+
+    fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64> {
+        (**self).at_through(column, row, curve)
+    }
+
+    fn add_along(
+        &self,
+        line: &StraightLine,
+        curve: &QuickCurve,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()> {
+        (**self).add_along(line, curve, weight, sums)
+    }
+}
+
 impl<P: Pixel> Grey for Frame<'_, P> {
     fn size(&self) -> (usize, usize) {
         (self.width, self.height)

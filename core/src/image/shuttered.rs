@@ -1,29 +1,31 @@
 //! Frames of which a shutter covers a part: what is behind it is no more of the picture than what is beyond the frame's border.
 
 use super::display::QuickCurve;
-use super::frame::{Frame, Grey, Pixel, StraightLine};
+use super::frame::{Grey, StraightLine};
 use super::mask::{Mask, MaskError, WORD_BITS, Word};
 
 /// A grey frame, and the pixels of it that are not the picture. Between these nothing is read, as beyond the outermost centres.
 #[derive(Clone, Copy, Debug)]
-pub struct Shuttered<'a, P, W> {
-    frame: Frame<'a, P>,
+pub struct Shuttered<F, W> {
+    frame: F,
     words: W,
 }
 
-impl<'a, P: Pixel, W: AsRef<[Word]>> Shuttered<'a, P, W> {
+impl<F: Grey, W: AsRef<[Word]>> Shuttered<F, W> {
     /// A frame of which the pixels set in a mask of these words, row by row, are not the picture.
     ///
     /// # Errors
     /// [`MaskError`] where they are no mask of the frame's size.
-    pub fn new(frame: Frame<'a, P>, words: W) -> Result<Self, MaskError> {
-        Mask::new(words.as_ref(), frame.width(), frame.height())?;
+    pub fn new(frame: F, words: W) -> Result<Self, MaskError> {
+        let (width, height) = frame.size();
+        Mask::new(words.as_ref(), width, height)?;
         Ok(Self { frame, words })
     }
 
     /// What is behind the shutter.
     fn behind(&self) -> Mask<'_> {
-        Mask::of_checked(self.words.as_ref(), self.frame.width(), self.frame.height())
+        let (width, height) = self.frame.size();
+        Mask::of_checked(self.words.as_ref(), width, height)
     }
 }
 
@@ -65,7 +67,7 @@ fn is_box_open(behind: &Mask<'_>, [one, other]: [[f64; 2]; 2]) -> bool {
     rows.is_empty() || words.is_empty() || rows.clone().all(is_clear)
 }
 
-impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
+impl<F: Grey, W: AsRef<[Word]>> Grey for Shuttered<F, W> {
     fn size(&self) -> (usize, usize) {
         self.frame.size()
     }
@@ -96,6 +98,7 @@ impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
 mod tests {
     use super::*;
     use crate::image::display::DisplayCurve;
+    use crate::image::frame::Frame;
     use crate::image::mask::{MaskMut, words_needed};
     use proptest::prelude::*;
 

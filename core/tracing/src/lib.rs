@@ -91,6 +91,7 @@ mod places_buffers;
 pub mod reduced;
 pub mod seeds;
 pub mod shapes;
+mod surround;
 pub mod whole_frame;
 
 pub mod beside;

@@ -3,14 +3,14 @@
 use alloc::vec::Vec;
 
 use fluoropose::camera::Camera;
-use fluoropose::image::mask::Word;
+use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::memory::grow;
 
 use crate::reduced::{ReducedMemory, ReducedPixels, reduced_needed};
 use crate::seeds::seeds_needed;
 use crate::shapes::{ShapeMemory, shapes_needed};
-use crate::whole_frame::PlacesMemory;
+use crate::whole_frame::{PlacesMemory, Written};
 
 /// Owns what a [`PlacesMemory`] borrows of its own; what it shares with the finder comes from there.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +22,7 @@ pub struct PlacesBuffers {
     words: Vec<Word>,
     reduced: Vec<u16>,
     unknown: Vec<Word>,
+    surround: Vec<Word>,
 }
 
 impl PlacesBuffers {
@@ -36,6 +37,10 @@ impl PlacesBuffers {
         let needs = reduced_needed(camera);
         grow(&mut self.reduced, needs.pixels);
         grow(&mut self.unknown, needs.words);
+        grow(
+            &mut self.surround,
+            words_needed(camera.width(), camera.height()),
+        );
         PlacesMemory {
             sums: &mut self.sums,
             shapes: ShapeMemory {
@@ -49,15 +54,19 @@ impl PlacesBuffers {
                 pixels: &mut self.reduced,
                 unknown: &mut self.unknown,
             },
+            surround: &mut self.surround,
         }
     }
 
     /// What [`crate::whole_frame::WholeFrame::new`] wrote for its steps.
     #[must_use]
-    pub fn reduced(&self) -> ReducedPixels<'_> {
-        ReducedPixels {
-            pixels: &self.reduced,
-            unknown: &self.unknown,
+    pub fn written(&self) -> Written<'_> {
+        Written {
+            reduced: ReducedPixels {
+                pixels: &self.reduced,
+                unknown: &self.unknown,
+            },
+            surround: &self.surround,
         }
     }
 }

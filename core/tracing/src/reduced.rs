@@ -144,7 +144,7 @@ impl Reduction {
     pub(crate) fn frame<'m>(
         &self,
         written: ReducedPixels<'m>,
-    ) -> Result<Shuttered<'m, u16, &'m [Word]>, TooLittleMemory> {
+    ) -> Result<Shuttered<Frame<'m, u16>, &'m [Word]>, TooLittleMemory> {
         let (width, height) = (self.camera.width(), self.camera.height());
         let needs = (width * height, words_needed(width, height));
         let lack = |what, needed, given| TooLittleMemory {

@@ -5,8 +5,10 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::follow::{FramePose, From, Places, Subject, refined_on_frame};
 use fluoropose::image::contour::Point;
+use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::image::shuttered::Shuttered;
 use fluoropose::math::{Vector3, norm, sqrt, subtract};
-use fluoropose::memory::TooLittleMemory;
+use fluoropose::memory::{TooLittleMemory, first};
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, RefineMemory};
 use heapless::Vec;
@@ -17,6 +19,7 @@ use crate::one_click::{
 use crate::reduced::{ReducedMemory, ReducedPixels, Reduction};
 use crate::seeds::{SEEDS, expected_size, seeds};
 use crate::shapes::{SHAPES, ShapeMemory, shapes};
+use crate::surround::surround;
 
 /// Most places that are tried.
 const PLACES: usize = SHAPES + SEEDS;
@@ -88,6 +91,17 @@ pub struct PlacesMemory<'m> {
     pub shapes: ShapeMemory<'m>,
     /// As [`crate::reduced::reduced_needed`] says; what is written into it each step reads.
     pub reduced: ReducedMemory<'m>,
+    /// A mask of the frame's size, which each step reads too.
+    pub surround: &'m mut [Word],
+}
+
+/// What [`WholeFrame::new`] wrote for its steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Written<'m> {
+    /// The frame, reduced.
+    pub reduced: ReducedPixels<'m>,
+    /// What is not of the picture.
+    pub surround: &'m [Word],
 }
 
 /// The search of a frame, in steps between which it can be called off.
@@ -109,6 +123,8 @@ pub struct WholeFrame {
     agreed: bool,
     /// By how much the frame is reduced where places are tried.
     reduction: Reduction,
+    /// Whether it has a surround, and how many words its mask takes.
+    surround: Option<usize>,
 }
 
 impl WholeFrame {
@@ -125,6 +141,18 @@ impl WholeFrame {
         memory: &mut PlacesMemory<'_>,
     ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
+        let (width, height) = image.frame.size();
+        let words = words_needed(width, height);
+        // An implant in nothing but air may lie before what is taken for a surround: other places are looked for in the frame as it is.
+        let surround = match places {
+            Places::Shaped => surround(image, first("words", words, memory.surround)?),
+            Places::Dark | Places::All => Ok(None),
+        };
+        let surround = surround.ok().flatten();
+        let image = &ImageTarget {
+            unknown: surround.as_ref().or(image.unknown),
+            ..*image
+        };
         let is_near = |place: &Point| {
             beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
         };
@@ -149,6 +177,7 @@ impl WholeFrame {
             found: None,
             agreed: false,
             reduction: Reduction::of(size, camera),
+            surround: surround.map(|_| words),
         };
         if search.reduction.is_any() && !search.places.is_empty() {
             search.reduction.write(image, &mut memory.reduced)?;
@@ -195,14 +224,23 @@ impl WholeFrame {
         image: &ImageTarget<'_>,
         component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
-        written: ReducedPixels<'_>,
+        written: Written<'_>,
     ) -> Result<bool, OneClickError> {
         let reduction = self.reduction;
+        if let Some(words) = self.surround.filter(|_| !reduction.is_any()) {
+            let behind = written.surround.get(..words).unwrap_or_default();
+            let frame = Shuttered::new(image.frame, behind)?;
+            let seen = ImageTarget {
+                frame: &frame,
+                ..*image
+            };
+            return self.try_place(subject, [image, &seen], component, memory);
+        }
         if !reduction.is_any() {
             return self.try_place(subject, [image, image], component, memory);
         }
         // What is known of the film is in pixels, and a pixel that is unknown is none of the reduced frame.
-        let reduced = reduction.frame(written)?;
+        let reduced = reduction.frame(written.reduced)?;
         let seen = ImageTarget {
             frame: &reduced,
             unknown: None,

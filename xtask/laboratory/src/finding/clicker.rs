@@ -187,7 +187,7 @@ impl<'l> Clicker<'l> {
             goes_on(search.progress())?;
             let finder = self.finder.borrow(&component, camera, kernels);
             let mut memory = self.own.borrow(&needs, finder.workspace, finder.refine);
-            search.step(subject, image, &component, &mut memory, places.reduced())?;
+            search.step(subject, image, &component, &mut memory, places.written())?;
         }
         Ok(search.found().copied())
     }
