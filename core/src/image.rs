@@ -7,6 +7,7 @@ pub mod crop;
 mod crossing;
 pub mod display;
 pub mod frame;
+pub mod grey;
 pub mod mask;
 pub mod moments;
 mod point;

@@ -1,7 +1,7 @@
 //! Components that lie beside each other as in no knee, over the page's film.
 
 use fluoropose::finder::{FlippedKnee, FlippedLooks};
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::joint::beside::{Beside, Lying, Middles};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::KneeComponent;

@@ -17,7 +17,7 @@ pub use one_click::OneClick;
 
 use fluoropose::canonical::reverse;
 use fluoropose::finder::{FinderBuffers, Goal, Verdict};
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{Mask, Word};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;

@@ -6,7 +6,7 @@ use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, correct_candidates,
     find, first_poses, look_around,
 };
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;

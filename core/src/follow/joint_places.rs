@@ -6,7 +6,7 @@ use heapless::Vec;
 use super::in_joint::{BENDS, InJoint, Limb};
 use super::near::near_poses;
 use super::subject::Subject;
-use crate::image::frame::Grey;
+use crate::image::grey::Grey;
 use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineMemory};
 use crate::shortlist::keep;

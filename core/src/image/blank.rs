@@ -1,6 +1,6 @@
 //! Frames that show nothing.
 
-use super::frame::Grey;
+use super::grey::Grey;
 
 /// Where a frame is said to show nothing. One sentence for whoever looks in vain, without its full stop.
 pub const BLANK: &str = "the frame is empty: nearly all of it has one grey value";

@@ -1,6 +1,6 @@
 //! Grey values along a line across an edge, and the filter that finds the edge in them.
 
-use crate::image::frame::Grey;
+use crate::image::grey::Grey;
 use crate::math::exp;
 
 /// The grey value at `t` pixels along the unit vector `normal` from `place` (column, row): the sum over readings one pixel

@@ -1,7 +1,7 @@
 //! Frames of which a shutter covers a part: what is behind it is no more of the picture than what is beyond the frame's border.
 
 use super::display::QuickCurve;
-use super::frame::{Grey, StraightLine};
+use super::grey::{Grey, StraightLine};
 use super::mask::{Mask, MaskError, WORD_BITS, Word};
 
 /// A grey frame, and the pixels of it that are not the picture. Between these nothing is read, as beyond the outermost centres.

@@ -4,7 +4,7 @@
 use super::border::{BorderPixel, NormalReading};
 use super::view::ImageTarget;
 use crate::image::display::QuickCurve;
-use crate::image::frame::StraightLine;
+use crate::image::grey::StraightLine;
 use crate::image::mask::Mask;
 use crate::image::profile::{READING_STEP, steepest_rise};
 

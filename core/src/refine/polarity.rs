@@ -7,7 +7,7 @@ use super::memory::RefineMemory;
 use super::samples::outline_samples;
 use super::view::Polarity;
 use crate::camera::Camera;
-use crate::image::frame::Grey;
+use crate::image::grey::Grey;
 use crate::mesh::Model;
 use crate::pose::Pose;
 

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::film::FilmModel;
 use crate::image::display::DisplayCurve;
-use crate::image::frame::Grey;
+use crate::image::grey::Grey;
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
 use crate::pose::Pose;

@@ -2,7 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::image::contour::Point;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 
 /// The frame is read at so many places along its longer side.
 const CELLS: usize = 256;

@@ -186,7 +186,7 @@ fn sides(camera: &Camera, times: f64) -> [usize; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fluoropose::image::frame::Grey;
+    use fluoropose::image::grey::Grey;
     use fluoropose::refine::Polarity;
 
     const SIDE: usize = 448;

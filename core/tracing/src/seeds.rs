@@ -7,7 +7,7 @@
 use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::math::sqrt;
 use fluoropose::memory::{TooLittleMemory, first};

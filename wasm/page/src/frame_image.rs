@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::image::grey::Grey;
 use fluoropose::image::shuttered::Shuttered;
 use fluoropose_tracing::smoothed::{Scale, Smoothed};
 use js_sys::{Uint8Array, Uint16Array};

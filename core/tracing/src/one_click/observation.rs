@@ -2,7 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::refine::{ImageTarget, Polarity};
 

@@ -8,7 +8,7 @@ use super::opening::Opening;
 use super::window::{BLOCKED, LEVELS, Window};
 use fluoropose::camera::Camera;
 use fluoropose::image::contour::Point;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::refine::{Polarity, polarity_inside, polarity_near};
 

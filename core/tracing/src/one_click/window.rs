@@ -1,7 +1,7 @@
 //! The part of a frame that is searched: smoothed, with a dark implant, in integer grey levels.
 
 use super::background::subtract_background;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::math::ln;
 use fluoropose::refine::Polarity;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::image::shuttered::Shuttered;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};

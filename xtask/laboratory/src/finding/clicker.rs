@@ -6,7 +6,7 @@ use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::finder::{Candidate, Component, FindError, FinderBuffers, Goal, find};
 use fluoropose::follow::{InJoint, JointPlaces, Limb, Places, Subject};
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
 use fluoropose::library::Library;

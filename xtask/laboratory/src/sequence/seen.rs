@@ -1,6 +1,6 @@
 //! What is known of one frame.
 
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::silhouette::Silhouette;
 
 /// What is known of one frame.

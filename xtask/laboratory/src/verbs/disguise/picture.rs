@@ -1,6 +1,6 @@
 //! Pixels of a disguised frame.
 
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

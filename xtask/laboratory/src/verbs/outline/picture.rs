@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use fluoropose::image::frame::Grey;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose_phantom::picture::write_colour;
 use fluoropose_tracing::one_click::Prompt;
