@@ -3,7 +3,8 @@
 //! Its border is sharper than any metal's, so that whatever is told from the sharpest of borders is told wrongly near it, and a limb between it and
 //! air that is white too is a dark thing like metal. Air is none: a limb grows thin towards it.
 
-use fluoropose::image::mask::{Mask, MaskError, MaskMut, Word};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::memory::{TooLittleMemory, first};
 use fluoropose::refine::{ImageTarget, Polarity};
 
 /// What is no farther from the brightest grey value than this part of the frame's range is as bright.
@@ -15,18 +16,19 @@ const STEP: f64 = 0.5;
 const LEAST: f64 = 0.02;
 const SHOWN: f64 = 0.2;
 
-/// Writes what is not known of a frame and its surround into `words` (as many as a mask of the frame's size has); `None` where it has no surround.
+/// Writes what is not known of a frame and its surround into `words`; `None` where it has no surround.
 ///
 /// # Errors
-/// [`MaskError`] where there are not so many.
+/// [`TooLittleMemory`] where there are fewer than [`words_needed`] for a mask of the frame's size.
 pub(crate) fn surround<'m>(
     image: &ImageTarget<'_>,
     words: &'m mut [Word],
-) -> Result<Option<Mask<'m>>, MaskError> {
+) -> Result<Option<Mask<'m>>, TooLittleMemory> {
     let (width, height) = image.frame.size();
+    let words = first("words", words_needed(width, height), words)?;
     words.fill(0);
-    let mut mask = MaskMut::new(words, width, height)?;
-    let Some(brightness) = Brightness::of(image, [width, height]) else {
+    let mask = MaskMut::new(words, width, height).ok();
+    let Some((mut mask, brightness)) = mask.zip(Brightness::of(image, [width, height])) else {
         return Ok(None);
     };
     cover_runs(&mut mask, &brightness);
@@ -138,7 +140,6 @@ impl<'i> Brightness<'i> {
 mod tests {
     use super::*;
     use fluoropose::image::frame::Frame;
-    use fluoropose::image::mask::words_needed;
 
     const SIDE: usize = 120;
 
@@ -166,6 +167,7 @@ mod tests {
                 film: None,
             };
             let mut words = std::vec![7; words_needed(SIDE, SIDE)];
+            assert!(surround(&image, &mut words[1..]).is_err());
             let mask = surround(&image, &mut words).expect("enough words")?;
             Some(
                 (0..SIDE * SIDE)

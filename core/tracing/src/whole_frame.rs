@@ -5,10 +5,10 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::follow::{FramePose, From, Places, Subject, refined_on_frame};
 use fluoropose::image::contour::Point;
-use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::image::mask::Word;
 use fluoropose::image::shuttered::Shuttered;
 use fluoropose::math::{Vector3, norm, sqrt, subtract};
-use fluoropose::memory::{TooLittleMemory, first};
+use fluoropose::memory::TooLittleMemory;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, RefineMemory};
 use heapless::Vec;
@@ -91,7 +91,7 @@ pub struct PlacesMemory<'m> {
     pub shapes: ShapeMemory<'m>,
     /// As [`crate::reduced::reduced_needed`] says; what is written into it each step reads.
     pub reduced: ReducedMemory<'m>,
-    /// A mask of the frame's size, which each step reads too.
+    /// As many as [`fluoropose::image::mask::words_needed`] says for a mask of the frame's size; each step reads them too.
     pub surround: &'m mut [Word],
 }
 
@@ -100,7 +100,7 @@ pub struct PlacesMemory<'m> {
 pub struct Written<'m> {
     /// The frame, reduced.
     pub reduced: ReducedPixels<'m>,
-    /// What is not of the picture.
+    /// A mask of what is not of the picture, of the frame's size: only where a surround was found.
     pub surround: &'m [Word],
 }
 
@@ -141,14 +141,11 @@ impl WholeFrame {
         memory: &mut PlacesMemory<'_>,
     ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
-        let (width, height) = image.frame.size();
-        let words = words_needed(width, height);
         // An implant in nothing but air may lie before what is taken for a surround: other places are looked for in the frame as it is.
         let surround = match places {
-            Places::Shaped => surround(image, first("words", words, memory.surround)?),
-            Places::Dark | Places::All => Ok(None),
+            Places::Shaped => surround(image, memory.surround)?,
+            Places::Dark | Places::All => None,
         };
-        let surround = surround.ok().flatten();
         let image = &ImageTarget {
             unknown: surround.as_ref().or(image.unknown),
             ..*image
@@ -177,7 +174,7 @@ impl WholeFrame {
             found: None,
             agreed: false,
             reduction: Reduction::of(size, camera),
-            surround: surround.map(|_| words),
+            surround: surround.map(|mask| mask.words().len()),
         };
         if search.reduction.is_any() && !search.places.is_empty() {
             search.reduction.write(image, &mut memory.reduced)?;

@@ -153,6 +153,7 @@ impl<'m> ThresholdStatistics<'m> {
 #[cfg(test)]
 mod tests {
     use super::super::flooding::{flood, links_needed};
+    use super::super::window::BLOCKED;
     use super::*;
 
     const SIDE: usize = 40;
@@ -179,18 +180,21 @@ mod tests {
     }
 
     fn statistics(memory: &mut [u32]) -> ThresholdStatistics<'_> {
+        statistics_of(&frame(), memory)
+    }
+
+    fn statistics_of<'m>(grey: &[u16], memory: &'m mut [u32]) -> ThresholdStatistics<'m> {
         let window = Window {
             left: 0,
             top: 0,
             width: SIDE,
             height: SIDE,
         };
-        let grey = frame();
         let mut reached = std::vec![0; grey.len()];
         let mut links = std::vec![0; links_needed(grey.len())];
         let seed = 20 * SIDE + 10;
-        flood(&grey, &window, seed, &mut reached, &mut links);
-        ThresholdStatistics::new(&grey, &reached, &window, grey[seed], memory)
+        flood(grey, &window, seed, &mut reached, &mut links);
+        ThresholdStatistics::new(grey, &reached, &window, grey[seed], memory)
     }
 
     #[test]
@@ -211,6 +215,24 @@ mod tests {
         // The disc ends at the bridge or the ground.
         assert!((statistics.sharpness(200) - 650.0).abs() < 50.0);
         assert_eq!(statistics.sharpness(800), 0.0);
+    }
+
+    #[test]
+    fn where_a_shutter_ends_a_region_it_has_no_border() {
+        let mut memory = [0; STATISTICS];
+        let mut grey = frame();
+        let behind = (0..SIDE * SIDE).filter(|k| k / SIDE < 5 || k / SIDE >= SIDE - 5);
+        behind.for_each(|k| grey[k] = BLOCKED);
+        let statistics = statistics_of(&grey, &mut memory);
+        let ground = (SIDE * (SIDE - 10)) as f64;
+        assert_eq!(
+            (statistics.area(800), statistics.sharpness(800)),
+            (ground, 0.0)
+        );
+        assert_eq!(
+            statistics.peak([0.0, ground]),
+            statistics.peak([0.0, ground - 1.0])
+        );
     }
 
     #[test]
