@@ -359,46 +359,4 @@ impl Block {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::camera::Camera;
-    use crate::refine::loss::Loss;
-
-    /// The step that six samples of this residual about a disc ask for.
-    fn step(corrects: bool, residual: f32) -> [f64; 6] {
-        let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
-        let motion = Motion::in_camera(&camera, &[0.0, 0.0, -600.0]);
-        let stage = Stage {
-            range: 10.0,
-            loss: Loss::Tukey(2.5),
-            drawn: true,
-            turn: 0,
-            corrects,
-            every: None,
-        };
-        let sample = |k: u16| BorderPixel {
-            column: 60 + 19 * k,
-            row: 40 + 37 * (k * k % 5),
-            slope: [3 - 2 * (k as i16), 5 - (k as i16) * (k as i16) % 7],
-            weight: 1.0,
-            near: 580.0 + 9.0 * f32::from(k),
-            far: 600.0,
-            residual: Residual::Px(residual).into(),
-        };
-        let samples: [BorderPixel; 8] = core::array::from_fn(|k| sample(k as u16));
-        let mut equations = Equations::new();
-        equations.add_samples(&samples, &motion, &stage);
-        equations.step(0.0, false).expect("determined").0.values()
-    }
-
-    #[test]
-    fn a_correction_takes_newtons_step_and_at_most_twice_that_of_the_weights() {
-        // Of Tukey's loss at a fifth of its scale: (1 - r^2)^2 and (1 - r^2)(1 - 5 r^2); at four fifths the second is negative.
-        for (residual, longer) in [(0.5, 0.96 / 0.8), (2.0, 2.0)] {
-            let (by_weights, newton) = (step(false, residual), step(true, residual));
-            for (one, other) in by_weights.iter().zip(newton) {
-                assert!((other / one - longer).abs() < 1e-3, "{one} {other}");
-            }
-        }
-    }
-}
+mod tests;
