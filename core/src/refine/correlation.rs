@@ -209,7 +209,68 @@ mod tests {
         assert!((five / one - 5.0).abs() < 0.25, "{one} {five}");
     }
 
+    /// Samples of any place and residual, listed row by row, all of one side of a part.
+    fn listed(places: &[(u16, u16, f32)]) -> Vec<BorderPixel> {
+        let mut places = places.to_vec();
+        places.sort_by_key(|&(row, column, _)| (row, column));
+        let sample = |(row, column, px): (u16, u16, f32)| BorderPixel {
+            column,
+            row,
+            slope: [2, 1],
+            weight: 0.5 + f32::from(column % 3),
+            residual: Residual::Px(px).into(),
+            ..BorderPixel::EMPTY
+        };
+        places.into_iter().map(sample).collect()
+    }
+
+    #[test]
+    fn what_is_taken_counts_at_every_distance_up_to_where_nothing_errs_alike() {
+        let border = listed(&[(0, 0, 0.1); 600]);
+        let distances = Distances::of(&border);
+        let mut raw = [-0.5f32; BINS + 1];
+        (raw[0], raw[1], raw[2], raw[4]) = (4.0, 2.0, -0.1, 1.0);
+        let cut = |taken: f32| Correlation::cut(&raw, taken, &distances);
+        assert_eq!(cut(0.0).bins[..4], [4.0, 2.0, 0.0, 0.0]);
+        assert_eq!(cut(0.25).bins[..6], [4.25, 2.25, 0.15, 0.0, 0.0, 0.0]);
+        // Two bins to both sides, as parts of the variance.
+        let width = distances.width_px();
+        let expected = 2.0 * width * (2.25 + 0.15) / 4.25;
+        assert!((cut(0.25).stretch_px() - expected).abs() < 1e-4 * expected);
+        raw[0] = -1.0;
+        assert_eq!(Correlation::cut(&raw, 0.0, &distances).stretch_px(), 1.0);
+    }
+
     properties! {
+        #[test]
+        fn covariances_are_mean_products_over_all_pairs_of_a_distance(
+            places in proptest::collection::vec((0u16..60, 0u16..60, -3.0f32..3.0), 2..220),
+        ) {
+            let border = listed(&places);
+            let (loss, distances) = (Loss::Cauchy(1.5), Distances::of(&border));
+            prop_assert_eq!(distances.one_in(), 1);
+            let (raw, length) = Correlation::raw(&border, loss, &distances);
+            let (mut sums, mut weights) = ([0.0f64; BINS + 1], [0.0f64; BINS + 1]);
+            let pull = |one: &BorderPixel| f64::from(loss.pull(one.residual_px().unwrap_or(0.0)));
+            for (index, one) in border.iter().enumerate() {
+                sums[0] += f64::from(one.weight) * pull(one) * pull(one);
+                weights[0] += f64::from(one.weight);
+                for (_, other, bin) in distances.after(&border, index) {
+                    let weight = f64::from(one.weight * other.weight);
+                    sums[bin] += weight * pull(one) * pull(other);
+                    weights[bin] += weight;
+                }
+            }
+            prop_assert!((f64::from(length) - weights[0]).abs() < 1e-3);
+            let mut before = 0.0;
+            for bin in 0..=BINS {
+                if weights[bin] > 0.0 {
+                    before = sums[bin] / weights[bin];
+                }
+                prop_assert!((f64::from(raw[bin]) - before).abs() < 1e-4, "{bin}: {} for {before}", raw[bin]);
+            }
+        }
+
         #[test]
         fn derivatives_that_are_kept_are_those_that_are_reckoned(
             residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),

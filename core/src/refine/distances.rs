@@ -195,6 +195,31 @@ mod tests {
         }
     }
 
+    properties! {
+        #[test]
+        fn of_the_first_bins_no_pair_is_left_out_and_none_beyond_them_compared(
+            places in proptest::collection::vec((0u16..90, 0u16..90), 20..200), bins in 0usize..BINS,
+        ) {
+            let border = samples(&places, 2.0);
+            let all = Distances::of(&border);
+            let first = all.of_first(bins);
+            prop_assert_eq!((all.one_in(), first.one_in()), (1, 1));
+            let end = f64::from(all.width_px()) * bins as f64;
+            for index in 0..border.len() {
+                let count = |of: Distances, most: f64| {
+                    let place = |one: &BorderPixel| (f64::from(one.column), f64::from(one.row));
+                    let near = of.after(&border, index).filter(|(_, other, _)| {
+                        let ((a, b), (c, d)) = (place(&border[index]), place(other));
+                        (a - c).hypot(b - d) < most
+                    });
+                    near.count()
+                };
+                prop_assert_eq!(count(first, end), count(all, end));
+                prop_assert_eq!(count(first, f64::INFINITY), count(first, if bins == 0 { 0.0 } else { end + 1.0 }));
+            }
+        }
+    }
+
     /// An outline that crosses each row four times would lose the same two of its sides by every second sample.
     #[test]
     fn one_of_so_many_is_of_every_side_alike() {

@@ -151,6 +151,60 @@ mod tests {
         }
     }
 
+    /// What surrounds an area that is nearly all metal is farther out.
+    #[test]
+    fn an_area_that_metal_fills_is_compared_with_what_surrounds_it() {
+        for (metal, around) in [(60, 150), (150, 60)] {
+            let pixel = |k: usize| {
+                let (column, row) = (k % SIDE, k / SIDE);
+                let is_metal = (30..70).contains(&column) && (50..70).contains(&row);
+                if is_metal { metal } else { around }
+            };
+            let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE).map(pixel).collect();
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            for area in [
+                [30.0, 50.0, 70.0, 70.0],
+                [28.0, 49.0, 72.0, 71.0],
+                [30.0, 48.0, 74.0, 70.0],
+            ] {
+                assert_eq!(
+                    polarity_inside(&frame, area),
+                    of(metal > around),
+                    "{metal} {area:?}"
+                );
+            }
+        }
+    }
+
+    /// The part fills most of a bright field in one frame and is brighter than a dark one in the other.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn an_outline_tells_the_polarity_by_what_lies_along_it() {
+        use crate::mesh::edges::fake::add_box;
+        use crate::refine::RefineBuffers;
+        let (mut vertices, mut triangles) = (std::vec::Vec::new(), std::vec::Vec::new());
+        let (low, high) = ([-9.0, -12.0, -5.0], [9.0, 12.0, 5.0]);
+        add_box(low, high, &mut vertices, &mut triangles);
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let camera = Camera::new(SIDE, SIDE, [500.0; 2], [60.0; 2]).expect("valid");
+        let pose = Pose {
+            translation: [0.0, 0.0, -300.0],
+            ..Pose::IDENTITY
+        };
+        for (metal, around) in [(60, 150), (150, 60)] {
+            let pixel = |k: usize| {
+                let (dx, dy) = ((k % SIDE).abs_diff(60), (k / SIDE).abs_diff(60));
+                if dx < 15 && dy < 20 { metal } else { around }
+            };
+            let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE).map(pixel).collect();
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let mut buffers = RefineBuffers::default();
+            let memory = &mut buffers.borrow(&model, &camera);
+            let found = polarity_at(&model, &camera, &pose, &frame, memory).expect("drawn");
+            assert_eq!(found, of(metal > around), "{metal}");
+        }
+    }
+
     #[test]
     fn beyond_the_frame_nothing_is_read() {
         let frame = [7u8; 100];

@@ -107,3 +107,86 @@ fn spread(image: &ImageTarget<'_>, place: [f64; 2], normal: [f64; 2], t: f64) ->
     }
     Some([mean, (squares - mean * mean).max(0.0)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::frame::Frame;
+    use crate::image::mask::{MaskMut, words_needed};
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    const SIDE: usize = 24;
+
+    /// Oracle: all pixels of a frame, each with what it weighs in five readings that are linear between the centres of pixels.
+    fn moments(
+        pixels: &[u16],
+        sign: f64,
+        [column, row]: [f64; 2],
+        [right, down]: [f64; 2],
+    ) -> [f64; 2] {
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (k, &grey) in pixels.iter().enumerate() {
+            let centre = [(k % SIDE) as f64 + 0.5, (k / SIDE) as f64 + 0.5];
+            let grey = sign * f64::from(grey);
+            for (along, part) in [(-2.0, 1.0), (-1.0, 4.0), (0.0, 6.0), (1.0, 4.0), (2.0, 1.0)] {
+                let at = [column - along * down, row + along * right];
+                let near = |axis: usize| (1.0 - f64::abs(at[axis] - centre[axis])).max(0.0);
+                let weight = part / 16.0 * near(0) * near(1);
+                sum += weight * grey;
+                squares += weight * grey * grey;
+            }
+        }
+        [sum, squares - sum * sum]
+    }
+
+    properties! {
+        #[test]
+        fn a_reading_is_mean_and_variance_of_the_pixels_round_it(
+            pixels in proptest::collection::vec(0u16..4000, SIDE * SIDE),
+            place in (9.0..15.0f64, 9.0..15.0f64), angle in 0.0..7.0f64, t in -5.0..5.0f64, bright in any::<bool>(),
+        ) {
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let polarity = if bright { Polarity::BrightImplant } else { Polarity::DarkImplant };
+            let image = ImageTarget { frame: &frame, unknown: None, polarity, film: None };
+            let (down, right) = libm::sincos(angle);
+            let found = spread(&image, [place.0, place.1], [right, down], t).expect("within");
+            let there = [place.0 + t * right, place.1 + t * down];
+            let sign = if bright { -1.0 } else { 1.0 };
+            let wanted = moments(&pixels, sign, there, [right, down]);
+            prop_assert!((found[0] - wanted[0]).abs() < 1e-6, "{found:?} {wanted:?}");
+            prop_assert!((found[1] - wanted[1]).abs() < 1e-3, "{found:?} {wanted:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_read_beyond_the_frame_or_where_nothing_is_known() {
+        let pixels: Vec<u16> = (0..(SIDE * SIDE) as u16).collect();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut unknown = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        unknown.set(14, 12, true);
+        let unknown = unknown.into_mask();
+        let image = |unknown| ImageTarget {
+            frame: &frame,
+            unknown,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let read = |unknown, place, t| spread(&image(unknown), place, [1.0, 0.0], t);
+        assert!(read(None, [12.5, 12.5], 2.0).is_some());
+        assert!(read(Some(&unknown), [12.5, 12.5], 2.0).is_none());
+        assert!(read(Some(&unknown), [12.5, 12.5], 3.0).is_some());
+        // Readings along the tangent are two pixels above and below.
+        for (place, is_read) in [
+            ([12.5, 2.5], true),
+            ([12.5, 2.4], false),
+            ([12.5, 21.4], true),
+            ([12.5, 21.6], false),
+        ] {
+            assert_eq!(read(None, place, 0.0).is_some(), is_read, "{place:?}");
+        }
+        assert!(read(None, [2.5, 12.5], -2.0).is_some());
+        assert!(read(None, [2.5, 12.5], -2.1).is_none());
+    }
+}
