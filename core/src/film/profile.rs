@@ -116,3 +116,38 @@ impl FilmProfile {
         (0..SIDE).map(|k| at(drawn, place(k))).sum::<f32>() / SIDE as f32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::lines::{INNER, STEP};
+
+    #[test]
+    fn readings_lie_from_six_pixels_inside_to_five_outside_of_the_outline() {
+        let read = FilmProfile::read(&[0.0; POINTS], 0.7, |t| Some([100.0 + t, 2.0 * t]));
+        let profile = read.expect("all known");
+        for (k, (&mean, &variance)) in profile.mean.iter().zip(&profile.variance).enumerate() {
+            let t = 0.7 - 6.0 + 0.5 * k as f32;
+            assert!((mean - 100.0 - t).abs() < 1e-4 && (variance - 2.0 * t).abs() < 1e-4);
+        }
+        // Four of 11 pixels apart, less the half pixels between them.
+        assert!((profile.contrast() - 9.5).abs() < 1e-4);
+        let missing = |t: f64| (t < 5.0).then_some([0.0; 2]);
+        assert!(FilmProfile::read(&[0.0; POINTS], 0.7, missing).is_none());
+    }
+
+    #[test]
+    fn what_is_drawn_inside_is_read_where_the_profile_is() {
+        let drawn = core::array::from_fn(|k| (INNER - STEP * k as f64) as f32);
+        let profile = FilmProfile {
+            outline: 0.4,
+            ..FilmProfile::default()
+        };
+        // The mean of 6, 5.5, 5 and 4.5 pixels inside the outline.
+        assert!(
+            (profile.inside(&drawn) - (5.25 - 0.4)).abs() < 1e-4,
+            "{}",
+            profile.inside(&drawn)
+        );
+    }
+}

@@ -237,7 +237,8 @@ impl Fit<'_> {
                 sums.normal[k][k] += weight;
                 sums.spread[k][k] += weight;
                 sums.right[k] -= weight * off;
-                sums.cost += weight * off * off / 2.0;
+                // As of profiles, the right side is half of its slope.
+                sums.cost += weight * off * off;
             }
         }
         sums.normal[CURVATURE][CURVATURE] += 1e-3;
@@ -303,7 +304,7 @@ pub(super) struct Drawings {
 }
 
 impl Drawings {
-    fn of(fit: &Fit<'_>, at: &Vector) -> Self {
+    pub(super) fn of(fit: &Fit<'_>, at: &Vector) -> Self {
         let of_components = 2 + fit.components..2 + MOST_COMPONENTS;
         let near = |number| {
             if fit.is_held(number) || of_components.contains(&number) {

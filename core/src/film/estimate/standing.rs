@@ -161,4 +161,24 @@ mod tests {
         };
         assert!(is_other(&known, &found));
     }
+
+    #[test]
+    fn what_is_known_in_the_solvers_numbers_is_what_is_known() {
+        let mut known = pair(1.5).0;
+        known[0].constants.sharpening = Sharpening {
+            amount: 0.5,
+            radius_px: 1.5,
+        };
+        let at = known_of(&known, 40.0);
+        let near =
+            |number: usize, wanted: f64| assert!((at[number] - wanted).abs() < 1e-12, "{number}");
+        near(CURVATURE, 0.24);
+        near(BLUR, libm::log(1.4));
+        near(2, libm::log(1.4));
+        near(3, libm::log(2.1));
+        near(AMOUNT, 0.5);
+        near(RADIUS, libm::log(1.5));
+        known[0].constants.sharpening = Sharpening::default();
+        assert_eq!(known_of(&known, 40.0)[AMOUNT], 0.0);
+    }
 }

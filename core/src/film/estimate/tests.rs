@@ -1,4 +1,6 @@
 use super::guards::DOUBTED;
+use super::solver::Drawings;
+use super::unknowns::Vector;
 use super::*;
 use crate::film::lines::{INNER, POINTS, STEP};
 use crate::film::profile::READINGS;
@@ -288,4 +290,117 @@ fn what_is_stated_of_a_display_holds() {
         assert!((film.constants.blur_px - 0.9).abs() < 1e-9, "{film:?}");
         assert!(std::format!("{film}").starts_with(wanted), "{film}");
     }
+}
+
+fn fit(profiles: &mut [FilmProfile], sharpened: bool) -> Fit<'_> {
+    Fit {
+        contrast: contrast(profiles).expect("dark"),
+        profiles,
+        components: 2,
+        only: None,
+        every: 1,
+        hold: false,
+        sharpened,
+        given: GivenFilm::default(),
+    }
+}
+
+/// Constants beside those of [`logarithmic`] films and metals, in the solver's numbers.
+fn beside() -> Vector {
+    let mut at = [-1.2; UNKNOWNS];
+    (at[CURVATURE], at[BLUR], at[2], at[3]) = (0.8, 0.3, -0.6, -1.9);
+    (at[AMOUNT], at[RADIUS]) = (0.3, 1.2);
+    at
+}
+
+/// What is expected beforehand too: of so few profiles it is a large part.
+#[test]
+fn the_right_side_is_half_the_slope_of_what_is_minimised() {
+    for sharpened in [false, true] {
+        let mut all = profiles(0, 0.7, logarithmic);
+        all.truncate(24);
+        all.extend(profiles(1, 0.2, logarithmic).into_iter().take(24));
+        let mut fit = fit(&mut all, sharpened);
+        let at = beside();
+        fit.find_shifts(&at);
+        let right = fit.look(&at).expect("told").right;
+        for unknown in 0..UNKNOWNS {
+            let held = !sharpened && (unknown == AMOUNT || unknown == RADIUS);
+            let mut cost = |by: f64| {
+                let mut near = at;
+                near[unknown] += by;
+                fit.look(&near).expect("told").cost
+            };
+            const LITTLE: f64 = 0.01;
+            let slope = (cost(LITTLE) - cost(-LITTLE)) / (2.0 * LITTLE);
+            let half = if held { 0.0 } else { -slope / 2.0 };
+            // Slopes are taken forward over 0.03.
+            let near = (right[unknown] - half).abs() < 0.06 * half.abs() + 0.02;
+            assert!(near, "{sharpened} {unknown}: {} for {half}", right[unknown]);
+        }
+    }
+}
+
+/// Oracle: pulls of eight profiles in a row are added before they are squared.
+#[test]
+fn stretches_of_eight_profiles_err_as_one() {
+    let mut all = profiles(0, 0.7, logarithmic);
+    all.truncate(43);
+    let mut fit = fit(&mut all, false);
+    let at = beside();
+    fit.find_shifts(&at);
+    let spread = fit.look(&at).expect("told").spread;
+    // Of the shifts that were found.
+    let drawings = Drawings::of(&fit, &at);
+    let noise = 1.0 / (fit.cost(1.0).exp() - 1.0);
+    let pull = |profile: &FilmProfile| {
+        let (explained, slopes) = fit.explained(profile, &drawings).expect("explained");
+        let weight = 1.0 / (noise + explained.squares());
+        let along = slopes[1].iter().zip(explained.residuals);
+        -weight * f64::from(along.map(|(a, b)| a * b).sum::<f32>())
+    };
+    let stretches = fit.profiles.chunks(8);
+    let wanted: f64 = stretches
+        .map(|stretch| stretch.iter().map(pull).sum::<f64>())
+        .map(|pull| pull * pull)
+        .sum();
+    // What is expected of a blur has a deviation of 0.8.
+    let found = spread[BLUR][BLUR] - 1.0 / 0.64;
+    assert!((found / wanted - 1.0).abs() < 0.01, "{found} for {wanted}");
+}
+
+#[test]
+fn frames_that_cost_more_than_the_better_half_are_left_out_and_no_others() {
+    let mut all = profiles(0, 0.7, logarithmic);
+    // Noise of which frames have some and one has much.
+    for (k, profile) in all.iter_mut().enumerate() {
+        let frame = k / 24;
+        profile.frame = frame as u16;
+        let swing = [1.0, 1.05, 6.0, 1.0, 0.95][frame];
+        for (reading, mean) in profile.mean.iter_mut().enumerate() {
+            *mean += swing * [1.0, -1.0][(reading * reading + k) % 3 % 2];
+        }
+    }
+    let mut fit = fit(&mut all, false);
+    let mut at = beside();
+    (at[CURVATURE], at[BLUR], at[2]) = (1.3, libm::log(1.1), libm::log(0.7));
+    fit.find_shifts(&at);
+    fit.improve(&mut at, 6);
+    assert!(fit.leave_out_costly(&at));
+    assert!(
+        all.iter()
+            .all(|profile| profile.used == (profile.frame != 2))
+    );
+}
+
+#[test]
+fn deviations_are_as_wide_as_what_is_told_of_the_display() {
+    use DisplayKnowledge::{Told, Untold};
+    let of = |k, display, sharpened| least_deviation(k, (display, sharpened), -1.5);
+    assert_eq!(of(CURVATURE, Untold, true), 0.6);
+    assert_eq!(of(CURVATURE, Told, false), 0.06);
+    assert!((of(CURVATURE, Told, true) - 0.45).abs() < 1e-12);
+    assert_eq!([BLUR, 2, 3].map(|k| of(k, Told, false)), [0.05, 0.1, 0.1]);
+    assert_eq!([AMOUNT, RADIUS].map(|k| of(k, Told, false)), [0.0; 2]);
+    assert_eq!([AMOUNT, RADIUS].map(|k| of(k, Told, true)), [0.1; 2]);
 }
