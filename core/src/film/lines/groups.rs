@@ -205,3 +205,33 @@ fn for_each_tile(tiles: &Tiles, line: &Course, mut each: impl FnMut([usize; 2]))
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    properties! {
+        #[test]
+        fn a_line_is_entered_in_every_tile_that_it_has_places_in_once(
+            places in proptest::collection::vec((-20.0..300.0f64, -20.0..300.0f64, 0.0..7.0f64), 1..12), first in 0u16..40,
+        ) {
+            let line = |&(column, row, angle): &(f64, f64, f64)| {
+                let (down, right) = libm::sincos(angle);
+                Course { origin: [column, row], direction: [right, down], first }
+            };
+            let lines: Vec<Course> = places.iter().map(line).collect();
+            let all = |line: &Course| (line.first()..POINTS).map(|point| line.pixel(point)).collect::<Vec<_>>();
+            let tiles = Tiles::around(lines.iter().flat_map(all), LEAST_PLACES);
+            for line in &lines {
+                let mut wanted: Vec<[usize; 2]> = all(line).into_iter().map(|pixel| tiles.tile(pixel)).collect();
+                wanted.dedup();
+                let mut found = Vec::new();
+                for_each_tile(&tiles, line, |tile| found.push(tile));
+                prop_assert!(found.len() <= SPANNED);
+                prop_assert_eq!(found, wanted);
+            }
+        }
+    }
+}
