@@ -68,7 +68,7 @@ pub fn package(root: &Path, name: &str) -> Result<Package> {
     })
 }
 
-/// Cargo, which must not ask the terminal for anything.
+/// Cargo, which gets none of our standard input.
 pub(crate) fn cargo(root: &Path) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root).stdin(Stdio::null());
@@ -114,11 +114,14 @@ pub(crate) fn changes(root: &Path, package: &Package) -> Result<Vec<Change>> {
     Ok(all)
 }
 
+/// Files below the root, and bytes of them.
+pub(crate) type Places = Vec<(String, Range<usize>)>;
+
 /// What the compiler does not take: the file below the root, and the bytes that it speaks of, of each error.
 ///
 /// # Errors
 /// Where cargo cannot be started, or fails for another reason.
-pub(crate) fn refused(root: &Path, arguments: &[&str]) -> Result<Vec<Vec<(String, Range<usize>)>>> {
+pub(crate) fn refused(root: &Path, arguments: &[&str]) -> Result<Vec<Places>> {
     let mut command = cargo(root);
     command.args(arguments).arg("--message-format=json");
     let said = command.stderr(Stdio::piped()).output()?;
@@ -131,7 +134,7 @@ pub(crate) fn refused(root: &Path, arguments: &[&str]) -> Result<Vec<Vec<(String
         if line["reason"] != "compiler-message" || message["level"] != "error" {
             continue;
         }
-        let spans: Vec<_> = message["spans"]
+        let spans: Places = message["spans"]
             .as_array()
             .into_iter()
             .flatten()

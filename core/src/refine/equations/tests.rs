@@ -118,9 +118,9 @@ fn worth(sample: &BorderPixel, stage: &Stage) -> [f64; 7] {
         Residual::Px(px) if f64::from(px.abs()) <= stage.range => {
             let (cost, weight) = stage.loss.at(px);
             let (cost, weight, px) = (f64::from(cost), f64::from(weight), f64::from(px));
-            let bent = f64::from(stage.loss.curvature(px as f32));
+            let second = f64::from(stage.loss.curvature(px as f32));
             let firm = match stage.corrects {
-                true if bent > weight / 2.0 => bent,
+                true if second > weight / 2.0 => second,
                 true => weight / 2.0,
                 false => weight,
             };

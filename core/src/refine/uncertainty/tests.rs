@@ -81,9 +81,8 @@ fn a_stretch_that_is_met_badly_holds_its_number_less() {
     assert!(off[0] / off[1] < 4.0 * (0.99 / 0.85), "{off:?}");
 }
 
-/// Oracle: every pair of samples both ways, in 64 bits.
-#[test]
-fn sums_are_those_over_all_pairs_that_err_alike() {
+/// A trace that wanders, some of it without a counterpart.
+fn wandering() -> Vec<BorderPixel> {
     let px = |k: u16| 0.6 * libm::sinf(f32::from(k) / 5.0) + 0.3 * libm::cosf(f32::from(k * k));
     let sample = |k: u16| BorderPixel {
         column: 30 + 2 * (k % 40),
@@ -98,65 +97,60 @@ fn sums_are_those_over_all_pairs_that_err_alike() {
         }
         .into(),
     };
-    let border: Vec<BorderPixel> = (0..160).map(sample).collect();
-    let jacobian = |sample: &BorderPixel| -> [f32; 6] {
-        let (column, row) = (f32::from(sample.column), f32::from(sample.row));
-        [
-            1.0,
-            column / 50.0,
-            row / 30.0,
-            column * row / 900.0,
-            -0.5,
-            column * column / 2000.0,
-        ]
-    };
-    let loss = Loss::Cauchy(1.5);
-    let alike = Correlation::of(&border, loss, 6.0);
-    let mut sums = Sums::default();
-    let mut memory = [Projected::ZERO; 3 * 70];
-    sums.add(&Jacobians::new(&border, jacobian, &mut memory), loss, 6.0);
+    (0..160).map(sample).collect()
+}
 
-    let [mut information, mut holding, mut spread] = [[[0.0; 6]; 6]; 3];
+fn jacobian(sample: &BorderPixel) -> [f32; 6] {
+    let (x, y) = (f32::from(sample.column), f32::from(sample.row));
+    [1.0, x / 50.0, y / 30.0, x * y / 900.0, -0.5, x * x / 2000.0]
+}
+
+/// Oracle: every pair of samples both ways, in 64 bits.
+fn over_all_pairs(border: &[BorderPixel], loss: Loss, alike: &Correlation) -> Sums {
     let add = |to: &mut Matrix6, one: &BorderPixel, other: &BorderPixel, by: f64| {
         let (a, b) = (jacobian(one).map(f64::from), jacobian(other).map(f64::from));
         for (row, a) in to.iter_mut().zip(a) {
-            row.iter_mut()
-                .zip(b)
-                .for_each(|(sum, b)| *sum += by * a * b);
+            for (sum, b) in row.iter_mut().zip(b) {
+                *sum += by * a * b;
+            }
         }
     };
-    let (mut length, mut curvature) = (0.0, 0.0);
+    let mut sums = Sums::default();
     for (index, one) in border.iter().enumerate() {
         let (Some(px), l) = (one.residual_px(), f64::from(one.weight)) else {
             continue;
         };
-        let bent = f64::from(loss.curvature(px));
-        (length, curvature) = (length + l, curvature + l * bent);
-        add(&mut information, one, one, l);
-        add(&mut holding, one, one, l * bent);
-        add(&mut spread, one, one, l * l * f64::from(alike.bins[0]));
-        for (_, other, covariance) in alike.after(&border, index) {
+        let second = f64::from(loss.curvature(px));
+        sums.length += l;
+        sums.curvature += l * second;
+        add(&mut sums.information, one, one, l);
+        add(&mut sums.holding, one, one, l * second);
+        add(&mut sums.spread, one, one, l * l * f64::from(alike.bins[0]));
+        for (_, other, covariance) in alike.after(border, index) {
             let by = l * f64::from(other.weight) * f64::from(covariance);
-            add(&mut spread, one, other, by);
-            add(&mut spread, other, one, by);
+            add(&mut sums.spread, one, other, by);
+            add(&mut sums.spread, other, one, by);
         }
     }
     let stretch = f64::from(alike.stretch_px());
-    let numbers = [
-        (sums.length, length),
-        (sums.curvature, curvature),
-        (sums.stretches, length / stretch),
-        (sums.noise, length * stretch * f64::from(alike.bins[0])),
-    ];
-    for (found, wanted) in numbers {
+    sums.stretches = sums.length / stretch;
+    sums.noise = sums.length * stretch * f64::from(alike.bins[0]);
+    sums
+}
+
+#[test]
+fn sums_are_those_over_all_pairs_that_err_alike() {
+    let (border, loss) = (wandering(), Loss::Cauchy(1.5));
+    let mut found = Sums::default();
+    let mut memory = [Projected::ZERO; 3 * 70];
+    found.add(&Jacobians::new(&border, jacobian, &mut memory), loss, 6.0);
+    let wanted = over_all_pairs(&border, loss, &Correlation::of(&border, loss, 6.0));
+    let numbers = |of: &Sums| [of.length, of.curvature, of.stretches, of.noise];
+    for (found, wanted) in numbers(&found).into_iter().zip(numbers(&wanted)) {
         assert!((found / wanted - 1.0).abs() < 1e-5, "{found} for {wanted}");
     }
-    let matrices = [
-        (sums.information, information),
-        (sums.holding, holding),
-        (sums.spread, spread),
-    ];
-    for (found, wanted) in matrices {
+    let matrices = |of: &Sums| [of.information, of.holding, of.spread];
+    for (found, wanted) in matrices(&found).into_iter().zip(matrices(&wanted)) {
         for row in 0..6 {
             for column in 0..6 {
                 let unit = (wanted[row][row] * wanted[column][column]).abs().sqrt();
