@@ -43,5 +43,5 @@ pub(crate) fn run(args: Args) -> Result<()> {
         "fluoropose-mutants",
         "--",
     ]);
-    command::run(program.arg(&copy).args(args.options))
+    command::run(program.arg("--root").arg(&copy).args(args.options))
 }

@@ -52,7 +52,7 @@ enum Fate {
     Untried,
 }
 
-/// Changes a copy of the sources and tells what its tests miss.
+/// Changes a copy of the sources and prints what its tests miss.
 ///
 /// # Errors
 /// For what cannot be read, and where tests fail without a change. A change that is missed is no error: it is listed.
