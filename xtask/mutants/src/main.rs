@@ -6,7 +6,7 @@ use clap::Parser;
 
 #[derive(Parser)]
 #[command(
-    bin_name = "cargo xtask mutants",
+    override_usage = "cargo xtask mutants [OPTIONS]",
     about = "Changes of the sources, one at a time, that the tests have to notice: which they miss, and where no test comes",
     after_help = "Functions return something else, operators and signs are exchanged, arms of a match are taken out, in a copy of the sources below target/mutants. A change counts as \
 caught where a test fails or goes round in a circle.\n\n\

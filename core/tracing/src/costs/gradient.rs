@@ -161,4 +161,31 @@ mod tests {
         }
         assert_eq!(angle_of(0, 0), 0);
     }
+
+    /// Oracle: every second pixel up to four away, by the squares of a binomial, at the border the last pixel again.
+    #[test]
+    fn a_coarse_row_weighs_five_by_five_pixels_of_the_fine_one() {
+        let (width, height) = (13, 11);
+        let fine: std::vec::Vec<u16> = (0..width * height)
+            .map(|k| (k * k * 977 % 65_521) as u16)
+            .collect();
+        let mut out = std::vec![0; width * height];
+        for row in 0..height {
+            coarse_row(&fine, width, height, row, &mut out);
+        }
+        let binomial = [1, 4, 6, 4, 1];
+        let away =
+            |at: usize, k: usize, count: usize| (at + 2 * k).saturating_sub(4).min(count - 1);
+        for (at, &found) in out.iter().enumerate() {
+            let (column, row) = (at % width, at / width);
+            let mut sum = 0u32;
+            for (down, by_row) in binomial.into_iter().enumerate() {
+                for (right, by_column) in binomial.into_iter().enumerate() {
+                    let pixel = away(row, down, height) * width + away(column, right, width);
+                    sum += by_row * by_column * u32::from(fine[pixel]);
+                }
+            }
+            assert_eq!(u32::from(found), sum / 256, "{column} {row}");
+        }
+    }
 }

@@ -473,4 +473,76 @@ mod tests {
             0.0
         );
     }
+
+    #[test]
+    fn logarithms_keep_the_ends_of_the_scale_and_the_part_of_light_that_metal_takes() {
+        let mut grey = [0, 4000, 8000, 30_000, 60_000, u16::MAX];
+        let old = grey;
+        let steepest = to_logarithms(&mut grey);
+        assert_eq!((grey[0], grey[5]), (0, u16::MAX));
+        // A sixteenth of the scale is light that nothing takes.
+        let light = |grey: u16| f64::from(grey) + f64::from(u16::MAX) / 16.0;
+        let scale = f64::from(u16::MAX) / f64::ln(17.0);
+        for (new, old) in grey.windows(2).zip(old.windows(2)) {
+            let expected = scale * f64::ln(light(old[1]) / light(old[0]));
+            assert!(
+                (f64::from(new[1] - new[0]) - expected).abs() < 1.5,
+                "{old:?}"
+            );
+        }
+        assert!((steepest - scale / light(0)).abs() < 1e-9);
+    }
+
+    /// Oracle: row by row, then column by column, the last pixel again at each border.
+    #[test]
+    fn a_pass_of_the_filter_is_a_binomial_in_both_directions() {
+        let window = Window {
+            left: 3,
+            top: 4,
+            width: 7,
+            height: 5,
+        };
+        let grey: std::vec::Vec<u16> = (0..35).map(|k| (k * k * 499 % 60_000) as u16).collect();
+        let pass = |grey: &[u16], step: usize, at: fn(usize) -> usize, length: usize| {
+            let mean = |k: usize| {
+                let here = at(k);
+                let before = if here == 0 { k } else { k - step };
+                let after = if here + 1 == length { k } else { k + step };
+                let [a, b, c] = [before, k, after].map(|k| u32::from(grey[k]));
+                ((a + 2 * b + c + 2) / 4) as u16
+            };
+            (0..grey.len()).map(mean).collect::<std::vec::Vec<u16>>()
+        };
+        let rows = pass(&grey, 1, |k| k % 7, 7);
+        let expected = pass(&rows, 7, |k| k / 7, 5);
+        let mut found = grey;
+        smooth(&mut found, &window);
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn the_ends_of_the_scale_leave_out_a_few_pixels() {
+        // Of 20 000 pixels ten at each end are few.
+        let grey = |outside: usize| {
+            let pixel = |k: usize| match k {
+                k if k < outside => 0,
+                k if k >= 20_000 - outside => 65_000,
+                k => 10_000 + (k % 10_000) as u16,
+            };
+            (0..20_000).map(pixel).collect::<std::vec::Vec<u16>>()
+        };
+        let mut histogram = std::vec![7; 1024];
+        let (dark, bright) = ends(&grey(5), &mut histogram);
+        assert!((10_000 - 64..=10_000).contains(&dark), "{dark}");
+        assert!((20_000 - 64..=20_000 + 64).contains(&bright), "{bright}");
+        let (dark, bright) = ends(&grey(50), &mut histogram);
+        assert_eq!(dark, 0);
+        assert!(bright >= 65_000, "{bright}");
+        // Of one value alone both ends are told.
+        let (dark, bright) = ends(&[500; 100], &mut histogram);
+        assert!(
+            dark < bright && dark <= 500 && bright > 500,
+            "{dark} {bright}"
+        );
+    }
 }

@@ -241,3 +241,63 @@ fn best(worth: &[f64; STATES]) -> usize {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// Slopes of samples, the greatest of each in one of its places.
+    fn slopes(greatest: &[f32]) -> Vec<f32> {
+        let one = |(number, &most): (usize, &f32)| {
+            (0..STATES).map(move |state| {
+                if state == number % STATES {
+                    most
+                } else {
+                    most / 3.0
+                }
+            })
+        };
+        greatest.iter().enumerate().flat_map(one).collect()
+    }
+
+    #[test]
+    fn a_usual_slope_is_the_median_of_those_that_are_edges() {
+        let all = slopes(&[9.0, 1.0, 30.0, 12.0, 2.0, 10.0, 50.0]);
+        // Nine, ten, twelve, thirty and fifty are at least three.
+        assert!((usual(&all, 7, 3.0) - 12.0).abs() < 1e-3);
+        assert!((usual(&all, 7, 0.5) - 10.0).abs() < 1e-3);
+        assert!(
+            (usual(&all, 3, 3.0) - 9.0).abs() < 1e-3,
+            "of the first three alone"
+        );
+        assert_eq!(usual(&all, 7, 60.0), 60.0, "none is an edge");
+        assert!(usual(&[], 0, 0.0) > 0.0);
+    }
+
+    #[test]
+    fn between_places_the_top_is_that_of_a_parabola() {
+        let top = |peak: f64| {
+            let slope =
+                |state: usize| (9.0 - 2.0 * (state as f64 - peak) * (state as f64 - peak)) as f32;
+            let mut slopes: Vec<f32> = (0..STATES).map(slope).collect();
+            let mut samples = [Sample::default()];
+            let tracker = Tracker {
+                samples: &mut samples,
+                slopes: &mut slopes,
+                ways: &mut [],
+                least: 1.0,
+                usual: 5.0,
+                half: 4,
+            };
+            tracker.part(0, peak.round() as usize)
+        };
+        for off in [-0.4, -0.25, 0.0, 0.1, 0.45] {
+            assert!(
+                (top(6.0 + off) - off).abs() < 1e-4,
+                "{off}: {}",
+                top(6.0 + off)
+            );
+        }
+    }
+}
