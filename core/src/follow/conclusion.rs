@@ -256,4 +256,42 @@ mod tests {
             (State::Untrackable, outside)
         );
     }
+
+    #[test]
+    fn a_reason_is_a_sentence_with_its_figure() {
+        let words = |why: Why| std::format!("{why}");
+        assert_eq!(
+            words(Why::Outside(0.25)),
+            "only 25 % of the component would be in the frame"
+        );
+        let unmet = words(Why::Distrusted(Distrust::Unmet(0.5)));
+        assert_eq!(unmet, "residual: only 50 % of the outline is met by edges");
+        let all = [
+            Why::NeverReached,
+            Why::GivenByPerson,
+            Why::Agrees,
+            Why::AgreesAlone,
+            Why::Hidden,
+            Why::Blank,
+        ]
+        .map(words);
+        for (k, one) in all.iter().enumerate() {
+            assert!(
+                !one.is_empty() && !one.ends_with('.') && !all[..k].contains(one),
+                "{one}"
+            );
+        }
+        let mut one = Conclusion {
+            state: State::Interpolated,
+            pose: None,
+            why: Why::Hidden,
+            badness: 0.0,
+        };
+        assert_eq!(
+            std::format!("{one}"),
+            std::format!("taken from the frames on both sides; {}", all[4])
+        );
+        one.state = State::Untrackable;
+        assert_eq!(std::format!("{one}"), all[4]);
+    }
 }

@@ -348,6 +348,58 @@ mod tests {
         assert_eq!(film(Some(14)), [2, 7, 12, 13, 14, 15, 16, 17, 22, 27]);
     }
 
+    /// Sides ten degrees apart, between which a trail turns on: as far as it has turned, they are less sure to be told apart, the less the
+    /// farther it is; halfway nothing is told. A limb's swing in the image plane changes nothing of it.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn how_sure_a_trail_went_over_follows_from_how_far_it_turned_out_of_the_plane() {
+        let sample = |own: f64, other: f64, swing: f64| {
+            let seen = |deg: f64| {
+                let mut found = turned(deg, 0.5);
+                let swung = rotation_by(&[0.0, 0.0, swing]);
+                found.pose.rotation = multiply(&swung, &found.pose.rotation);
+                found
+            };
+            SideSample {
+                frame: 0,
+                own: seen(own),
+                rival: Rival::Mirrored,
+                other: Some(seen(other)),
+                fixed: false,
+            }
+        };
+        for swing in [0.0, 0.4, -1.2] {
+            for (turn, sure) in [
+                (0.0, 1.0),
+                (4.0, 1.0),
+                (5.0, 1.0),
+                (8.0, 0.4),
+                (9.0, 0.2),
+                (10.0, 0.0),
+            ] {
+                let before = sample(0.0, 10.0, 0.0);
+                for (now, went_over) in [
+                    (sample(turn, 10.0 + turn, swing), false),
+                    (sample(10.0 + turn, turn, swing), true),
+                ] {
+                    let told = now.went_over_since(&before);
+                    assert!((told.1 - sure).abs() < 1e-6, "{swing} {turn}: {told:?}");
+                    assert!(
+                        sure == 0.0 || told.0 == went_over,
+                        "{swing} {turn}: {told:?}"
+                    );
+                    let elsewhere = SideSample {
+                        rival: Rival::Elsewhere,
+                        ..now
+                    };
+                    assert_eq!(elsewhere.went_over_since(&before), (false, 1.0));
+                    let alone = SideSample { other: None, ..now };
+                    assert_eq!(alone.went_over_since(&before), (false, 1.0));
+                }
+            }
+        }
+    }
+
     #[cfg(feature = "alloc")]
     properties! {
         /// Two ways on either side of a mirror, each turning a little from frame to frame; a model's axes and a camera's are any.
