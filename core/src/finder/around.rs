@@ -275,4 +275,29 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn what_was_found_is_assessed_with_its_start_and_what_led_to_the_best() {
+        let right = placed([20.0, 30.0, 0.0], [0.0; 3]);
+        let start = placed([21.0, 29.0, 1.0], [0.0; 3]);
+        let best = Candidate {
+            pose: start,
+            start,
+            located: Some(crate::finder::fake::located(9)),
+            refined: None,
+            covariance: None,
+            fit: crate::refine::Fit::default(),
+        };
+        let (found, assessed) = around_seen(&right, &[], |around| {
+            around.refine(&start);
+            (around.found.clone(), around.assessed(&best))
+        });
+        let assessed = assessed.expect("in front");
+        assert_eq!((found.len(), assessed.len()), (1, 1));
+        let one = assessed[0];
+        assert_eq!((one.start, one.located), (start, best.located));
+        assert_eq!((one.pose, one.refined), (found[0].1.pose, Some(found[0].1)));
+        assert!(one.covariance.is_some() && one.fit.met > 0.9, "{one:?}");
+        assert!((one.misfit() - misfit(&found[0].1)).abs() < 1e-12);
+    }
 }

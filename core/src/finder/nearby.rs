@@ -234,4 +234,54 @@ mod tests {
         let found = nearby(&model, &camera, &silhouette, &right, WIDE_DEG, &mut memory);
         assert_eq!(found, [right]);
     }
+
+    /// Of a flat part that faces the camera area, centroid and axis tell all four numbers at once, exactly.
+    #[test]
+    fn a_flat_part_is_brought_onto_its_silhouette_by_one_move() {
+        use crate::mesh::OwnedModel;
+        let (mut vertices, mut triangles) = (vec![], vec![]);
+        crate::mesh::edges::fake::add_box(
+            [-32.0, -14.0, -0.05],
+            [32.0, 14.0, 0.05],
+            &mut vertices,
+            &mut triangles,
+        );
+        let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+        let model = OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("valid");
+        let (camera, model_of) = (camera(), model.as_model());
+        let right = placed([0.0, 0.0, 20.0], [14.0, -19.0, 30.0]);
+        let words = drawn(&model, &camera, &right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let silhouette = Silhouette::from(&mask);
+        let mut buffers = RefineBuffers::default();
+        let memory = buffers.borrow(&model_of, &camera);
+        let mut search = NearbySearch {
+            model: &model_of,
+            camera: &camera,
+            silhouette: &silhouette,
+            wanted: mask.moments(),
+            middle: [0.0; 3],
+            moves: 1,
+            scratch: memory.projected,
+            drawn: MaskMut::new(&mut memory.drawn[..words_needed(SIDE, SIDE)], SIDE, SIDE)
+                .expect("fits"),
+        };
+        for (turn_deg, shift) in [
+            (0.0, [0.0, 0.0, 0.0]),
+            (0.0, [-20.0, 0.0, 0.0]),
+            (0.0, [0.0, 25.0, 0.0]),
+            (0.0, [0.0, 0.0, 90.0]),
+            (-30.0, [9.0, 12.0, -110.0]),
+        ] {
+            let turn = [0.0, 0.0, radians(turn_deg)];
+            let start = about(&[0.0; 3], &right, &turn, shift);
+            let (_, moved) = search.moved([0.0; 3], &start).expect("in the frame");
+            let [deg, aside_mm, deeper_mm] = off(&moved, &right, &[0.0; 3]);
+            // About the ray, which is not quite the camera's axis.
+            assert!(
+                deg < 1.0 && aside_mm < 0.25 && deeper_mm < 5.0,
+                "{shift:?}: {deg} {aside_mm} {deeper_mm}"
+            );
+        }
+    }
 }

@@ -129,6 +129,7 @@ mod tests {
     }
 
     properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
         /// Of a frame with as many pixels to a side as it is asked at, each is asked: the naive way compares all that are eight apart.
         #[test]
         fn a_usual_step_is_three_times_the_mean_change_over_eight_pixels(seed in 0u32..1000, dark in 0usize..64) {

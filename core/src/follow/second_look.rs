@@ -270,4 +270,49 @@ mod tests {
         assert!(deg < 3.0 && mm < 1.0, "{deg} {mm}");
         assert_eq!(found_again(0.0, 0.0).0, None);
     }
+
+    #[test]
+    fn frames_that_lead_to_another_lie_at_most_six_away() {
+        let looked_at = |missing: &[usize]| {
+            let cells: Vec<Cell> = (0..24)
+                .map(|k| match missing.contains(&k) {
+                    true => Cell::default(),
+                    false => cell(4.0 * k as f64, if k == 10 { 0.9 } else { 0.45 }),
+                })
+                .collect();
+            second_looks(&cells, &MIDDLE).len()
+        };
+        let frames = |run: core::ops::Range<usize>| run.collect::<Vec<usize>>();
+        assert_eq!(
+            [frames(11..16), frames(5..10)].map(|run| looked_at(&run)),
+            [1; 2]
+        );
+        assert_eq!(
+            [frames(11..17), frames(4..10)].map(|run| looked_at(&run)),
+            [0; 2]
+        );
+    }
+
+    #[test]
+    fn what_is_usual_is_the_middle_one_of_each_number() {
+        let pose = |misfit_px: f64, step: f64, strength: f64| {
+            let mut found = turned(0.0, misfit_px);
+            (found.contrast.step, found.contrast.strength) = (step, strength);
+            found
+        };
+        let all = [
+            pose(5.0, 10.0, 0.9),
+            pose(1.0, 50.0, 0.1),
+            pose(3.0, 20.0, 0.5),
+            pose(2.0, 40.0, 0.7),
+            pose(4.0, 30.0, 0.3),
+        ];
+        let Usual {
+            misfit_px,
+            step,
+            strength,
+        } = usual(all.iter()).expect("some");
+        assert_eq!([misfit_px, step, strength], [3.0, 30.0, 0.5]);
+        assert_eq!(usual(core::iter::empty()), None);
+    }
 }

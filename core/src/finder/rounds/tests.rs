@@ -203,3 +203,99 @@ fn what_was_seen_is_an_outline_where_no_view_is_a_grey_frame() {
     );
     assert!(!begun(2, image));
 }
+
+#[test]
+fn of_what_the_first_stage_led_to_all_that_may_be_the_best_goes_on() {
+    let begun = |losses: &[f64]| {
+        let rivals: std::vec::Vec<_> = (0..)
+            .zip(losses)
+            .map(|(k, &loss)| rival(5.0 * f64::from(k), loss))
+            .collect();
+        let mut poses = looking(Round::First, &rivals, 0.1);
+        poses.go_on_with_begun();
+        assert!(poses.answers.is_empty() && poses.round == Round::Rest);
+        poses.open.len()
+    };
+    // Four times the least, or half a square pixel.
+    assert_eq!(begun(&[0.3, 1.2, 1.201]), 2);
+    assert_eq!(begun(&[0.01, 0.5, 0.501]), 2);
+    assert_eq!(begun(&[0.01, 0.02]), 2);
+    let mut near = looking(
+        Round::First,
+        &[rival(0.0, 0.1), rival(0.9, 0.2), rival(1.1, 0.3)],
+        0.1,
+    );
+    near.go_on_with_begun();
+    assert!(near.open.iter().map(|one| one.refined.loss).eq([0.1, 0.3]));
+}
+
+/// The round that follows one, and how many poses it has, where the best outline fits exactly but for so many pixels.
+#[cfg(feature = "alloc")]
+fn after(
+    round: Round,
+    planes: usize,
+    residual_px: f64,
+    all_back: bool,
+) -> Option<(&'static str, usize)> {
+    use crate::finder::fake::{SIDE, camera, crank, drawn, placed};
+    use crate::image::mask::Mask;
+    use crate::image::silhouette::Silhouette;
+    let (model, camera, pose) = (crank(), camera(), placed([20.0, 30.0, 0.0], [0.0; 3]));
+    let words = drawn(&model, &camera, &pose);
+    let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+    let views = [CameraView::only(&camera, Silhouette::from(&mask))];
+    let plane = SymmetryPlane {
+        point: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        deviation_mm: 0.0,
+    };
+    let mut best = rival(0.0, 0.01);
+    (best.refined.pose, best.refined.residual_px) = (pose, residual_px);
+    let mut poses = looking(round, &[best], 0.1);
+    (poses.is_outline, poses.all_back) = (true, all_back);
+    let mut buffers = crate::refine::RefineBuffers::default();
+    let model = model.as_model();
+    let subject = Subject {
+        model: &model,
+        views: &views,
+        planes: &[plane; 3][..planes],
+        options: RefineOptions::default(),
+    };
+    let _ = poses.next_round(&subject, &mut buffers.borrow(&model, &camera));
+    let word = match poses.round {
+        Round::Mirrors => "mirrors",
+        Round::Beside => "beside",
+        Round::Around => "around",
+        _ => "other",
+    };
+    let off = |open: &RefinedRival| geodesic_deg(&open.from.rotation, &pose.rotation);
+    match poses.round {
+        Round::Beside => assert!(
+            poses
+                .open
+                .iter()
+                .all(|open| (off(open) - BESIDE_DEG).abs() < 1e-9)
+        ),
+        Round::Around => assert!(poses.open.iter().all(|open| off(open) > CLOSE_DEG / 2.0)),
+        _ => {}
+    }
+    (poses.doing != Doing::Nothing).then_some((word, poses.open.len()))
+}
+
+#[cfg(feature = "alloc")]
+#[test]
+fn symmetric_parts_are_looked_at_from_beside_and_split_outlines_from_all_around() {
+    let (whole, split) = (0.01, 0.2);
+    for round in [Round::Rest, Round::Starts] {
+        assert_eq!(after(round, 0, split, true), Some(("mirrors", 1)));
+    }
+    assert_eq!(after(Round::Mirrors, 1, whole, true), Some(("beside", 4)));
+    assert_eq!(after(Round::Mirrors, 3, split, true), Some(("beside", 4)));
+    assert_eq!(after(Round::Mirrors, 0, whole, true), None);
+    let around = after(Round::Mirrors, 0, split, true).expect("it is split");
+    assert!(around.0 == "around" && around.1 > 1, "{around:?}");
+    assert_eq!(after(Round::Beside, 1, split, false), Some(around));
+    assert_eq!(after(Round::Beside, 1, split, true), None);
+    assert_eq!(after(Round::Beside, 1, whole, false), None);
+    assert_eq!(after(Round::Around, 1, split, false), None);
+}

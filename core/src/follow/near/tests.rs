@@ -167,7 +167,10 @@ properties! {
             prop_assert!(lost.len() <= 1 && lost.iter().all(|&score| score <= best[best.len() - 1].score));
         }
     }
+}
 
+properties! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
     /// What is shifted with its frame settles where it does, shifted; and where it begins, whole pixels and degrees off, tells the same place.
     #[test]
     fn a_place_settles_on_its_plate_wherever_that_lies(right in -4i8..4, down in -4i8..4) {
@@ -272,4 +275,44 @@ fn the_best_place_near_an_expected_pose_is_where_the_part_is_seen() {
             "{off:?} {deg}"
         );
     });
+}
+
+#[test]
+fn a_turn_out_of_the_plane_is_one_about_x_and_y() {
+    let turn = turn_out([5.0, -3.0]).map(crate::math::degrees);
+    assert!((turn[0] - 5.0).abs() < 1e-12 && (turn[1] + 3.0).abs() < 1e-12 && turn[2] == 0.0);
+}
+
+/// Of an outline of which less than two fifths lie in the frame nothing is told.
+#[test]
+fn too_little_of_an_outline_has_no_score() {
+    let pixels = plate([0.0; 2], 0.0);
+    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
+    let image = ImageTarget {
+        frame: &frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: None,
+    };
+    let outline = outline();
+    let sliding = Sliding {
+        outline: &outline,
+        image: &image,
+        step: 160.0,
+    };
+    let score = |right: f64| sliding.score(&outline.samples, [right, 0.0]);
+    assert!(score(0.0).is_some_and(|score| score > 0.9));
+    // It is 80 pixels long and its middle lies 80 from the side.
+    assert!(score(80.0).is_some() && score(-80.0).is_some());
+    assert_eq!([95.0, -95.0, 200.0, 1000.0].map(score), [None; 4]);
+    assert_eq!(sliding.score(&[], [0.0; 2]), None);
+    // In steps that are twice as large all is half as strong.
+    let faint = Sliding {
+        step: 320.0,
+        ..sliding
+    };
+    let half = faint
+        .score(&outline.samples, [0.0; 2])
+        .expect("in the frame");
+    assert!((half - 0.5).abs() < 0.03, "{half}");
 }

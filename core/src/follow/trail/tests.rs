@@ -54,6 +54,9 @@ fn motion_goes_on_for_two_frames_either_way_and_then_rests() {
             assert_near(led(&trail, frame(away)), [1.0, 4.0]);
             let times = away as f64;
             assert_near(ordinary(&trail, frame(away)), [8.0 * times, 15.0 * times]);
+            // Three hundredths of the distance.
+            let depth_mm = trail.expect(frame(away), &MIDDLE).depth_mm;
+            assert!((depth_mm - 0.03 * 997.0).abs() < 1e-9, "{depth_mm}");
         }
         trail.take(frame(1), Some(&at(2.0, 7.0)), true, &MIDDLE);
         assert_near(led(&trail, frame(2)), [3.0, 10.0]);

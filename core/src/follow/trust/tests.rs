@@ -338,3 +338,22 @@ fn a_frame_without_a_pose_is_neither_good_nor_bad() {
     assert_eq!(trusts[..2], [Trust::default(); 2]);
     assert_eq!(trusts[2].badness, 9.0, "beyond the film");
 }
+
+/// What leaves too much is no other pose: it says of those beside it nothing.
+#[test]
+fn a_pose_between_two_that_are_doubtful_for_themselves_is_not() {
+    let film = [2.7, 0.1, 2.7].map(|misfit_px| FrameEvidence {
+        found: Some(turned(0.0, misfit_px)),
+        ..FrameEvidence::default()
+    });
+    let (mut sorted, mut trusts) = ([0.0; 3], [Trust::default(); 3]);
+    judge_film(
+        &film,
+        &TrustLimits::USUAL,
+        &[0.0; 3],
+        &mut sorted,
+        &mut trusts,
+    );
+    let words = trusts.map(|trust| trust.distrust.map(|why| why.word()));
+    assert_eq!(words, [Some("residual"), None, Some("residual")]);
+}

@@ -144,3 +144,27 @@ properties! {
         }
     }
 }
+
+/// A file's origin may lie beside the component, and a condyle below the plate of a tray that sank.
+#[test]
+fn halves_are_those_of_the_component_and_heights_may_be_below_the_plate() {
+    let beside = pose([7.0, -3.0, 100.0], [0.0; 3]);
+    let (parts, tray) = (femur().in_axes(&beside), tray());
+    let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+    let above = Above::new(parts.mesh(), &Pose::IDENTITY, plate);
+    for height in [-15.0, 0.5, 12.0] {
+        let at = pose([0.0, height + RADIUS + 8.0, 1.5], [0.0; 3]);
+        let found = above.lowest_points(&at, all(&above));
+        for (point, medial_mm) in [
+            (found.medial, 101.5 + ACROSS),
+            (found.lateral, 101.5 - ACROSS),
+        ] {
+            assert!((point.medial_mm - medial_mm).abs() < 0.1, "{point:?}");
+            assert!((point.anterior_mm - 9.0).abs() < 0.1, "{point:?}");
+            assert!((point.height_mm - height).abs() < 0.06, "{point:?}");
+        }
+        let mut memory = std::vec![0; above.memory_needed()];
+        let near = above.near(&at, &mut memory).expect("room");
+        assert_eq!(above.lowest_points(&at, near.iter().copied()), found);
+    }
+}

@@ -164,3 +164,17 @@ properties! {
         prop_assert_eq!(phases_of(&flexion), [(0, last, false)]);
     }
 }
+
+#[test]
+fn before_the_first_frame_nothing_is_known_and_at_it_all() {
+    let points = cycle(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], 0.0, 40.0);
+    for (k, point) in points.iter().enumerate() {
+        let at = 0.4 * k as f64;
+        let is_known = (25..=75).contains(&k);
+        assert_eq!(!point.is_nan(), is_known, "{at}");
+        assert!(
+            !is_known || (point - at / 10.0).abs() < 1e-12,
+            "{at}: {point}"
+        );
+    }
+}

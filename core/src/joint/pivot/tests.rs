@@ -268,3 +268,22 @@ fn little_rotation_is_called_ill_conditioned_and_none_has_no_centre() {
     let same = pivot(core::iter::repeat_n(parallel, 5));
     assert!(same.is_none_or(|found| found.is_ill_conditioned()));
 }
+
+/// What errors of the lowest points add to how directions scatter is taken off: squared, the range is right in the mean.
+#[test]
+fn the_range_of_directions_is_right_on_average_however_noisy_lines_are() {
+    let mut random = Normal(21);
+    for (range, noise_mm) in [(8.0, 0.2), (8.0, 0.8)] {
+        let films = 200;
+        let squares = (0..films).map(|_| {
+            let lines = lines([-6.0, 17.0], range, 40, noise_mm, &mut random);
+            let found = pivot(lines.iter().copied()).expect("a pivot");
+            found.rotation_deg * found.rotation_deg
+        });
+        let mean = squares.sum::<f64>() / f64::from(films);
+        assert!(
+            (sqrt(mean) / range - 1.0).abs() < 0.03,
+            "{noise_mm}: {mean}"
+        );
+    }
+}
