@@ -128,9 +128,9 @@ properties! {
         high.add(&corners.map(turned), -below);
         prop_assert!((low.area + high.area - doubled).abs() < 1e-9, "{} {} {doubled}", low.area, high.area);
         let sum = corners.iter().fold([0.0; 3], |sum, corner| add(&sum, corner));
-        for k in 0..3 {
+        for (k, sum) in sum.iter().enumerate() {
             let both = low.moment[k] + turned(high.moment)[k];
-            prop_assert!((both - doubled * sum[k] / 3.0).abs() < 1e-9, "{k}: {both}");
+            prop_assert!((both - doubled * sum / 3.0).abs() < 1e-9, "{k}: {both}");
         }
         // Similar triangles: the part below the first corner to be cut off alone grows as the square of its height.
         let heights = corners.map(|corner| corner[1]);
