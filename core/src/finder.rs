@@ -12,6 +12,8 @@ pub mod choice;
 mod component;
 mod corrected;
 mod error;
+#[cfg(all(test, feature = "alloc"))]
+pub(crate) mod fake;
 mod find;
 mod first;
 #[cfg(feature = "alloc")]

@@ -66,6 +66,7 @@ mod sides;
 mod starts;
 mod state;
 mod subject;
+mod thinned;
 mod trail;
 mod trust;
 mod trust_limits;

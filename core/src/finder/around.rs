@@ -193,3 +193,111 @@ impl Around<'_, '_> {
         found.map(one).collect()
     }
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::finder::fake::{SIDE, camera, crank, drawn, placed};
+    use crate::image::mask::Mask;
+    use crate::image::silhouette::Silhouette;
+    use crate::math::{norm, subtract};
+    use crate::refine::RefineBuffers;
+
+    /// Does something around what is seen of the crank at a pose.
+    fn around_seen<T>(
+        right: &Pose,
+        planes: &[SymmetryPlane],
+        act: impl FnOnce(&mut Around<'_, '_>) -> T,
+    ) -> T {
+        let (model, camera) = (crank(), camera());
+        let words = drawn(&model, &camera, right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        let mut memory = buffers.borrow(&model, &camera);
+        act(&mut Around {
+            model: &model,
+            view: CameraView::only(&camera, Silhouette::from(&mask)),
+            planes,
+            options: RefineOptions::default(),
+            memory: &mut memory,
+            found: Vec::new(),
+        })
+    }
+
+    #[test]
+    fn starts_that_lead_to_one_pose_find_it_once_and_one_that_leads_nowhere_nothing() {
+        let right = placed([20.0, 30.0, 0.0], [0.0; 3]);
+        around_seen(&right, &[], |around| {
+            let behind = placed([0.0; 3], [0.0, 0.0, 2000.0]);
+            around.refine(&behind);
+            assert!(around.found.is_empty());
+            let starts =
+                [[21.5, 29.0, 1.0], [19.0, 31.5, -1.0]].map(|turn| placed(turn, [1.0, -1.0, 5.0]));
+            starts.iter().for_each(|start| around.refine(start));
+            let [(start, refined)] = around.found[..] else {
+                panic!("one pose: {:?}", around.found);
+            };
+            assert!(starts.contains(&start));
+            assert!(geodesic_deg(&refined.pose.rotation, &right.rotation) < SAME_DEG);
+            // What is there already, and leaves more, makes room for what leaves less.
+            around.found[0].1.loss = 1e3;
+            around.found[0].0 = behind;
+            around.refine(&start);
+            let lost = around.found.iter().any(|(from, _)| *from == behind);
+            assert!(around.found.len() == 1 && !lost);
+        });
+    }
+
+    /// Of each distance the best starts, whichever way these are turned; all of them lie on the ray through the middle.
+    #[test]
+    fn the_right_pose_is_among_the_starts_around_one_that_lies_too_far() {
+        let base = placed([20.0, 30.0, 0.0], [30.0, 10.0, -20.0]);
+        let middle = crank().as_model().bounds().centre;
+        let at = |distance: f64, [x, y]: [f64; 2]| {
+            let shift = scale(&base.transform(&middle), distance - 1.0);
+            about(&middle, &base, &[radians(x), radians(y), 0.0], shift)
+        };
+        for (distance, turn_deg) in [(1.0, [0.0, 0.0]), (0.96, [4.0, -10.0]), (1.02, [-8.0, 5.0])] {
+            let right = at(distance, turn_deg);
+            let starts = around_seen(&right, &[], |around| around.starts(&base));
+            assert_eq!(starts.len(), DISTANCES.len() * OF_A_DISTANCE);
+            // Nothing fits better than the right one.
+            let off = subtract(&starts[0].translation, &right.translation);
+            let deg = geodesic_deg(&starts[0].rotation, &right.rotation);
+            assert!(norm(&off) < 1e-6 && deg < 1e-6, "{distance}: {deg}");
+            let ray = base.transform(&middle);
+            for distance in DISTANCES {
+                let there = |start: &&Pose| {
+                    let off = subtract(&start.transform(&middle), &scale(&ray, distance));
+                    norm(&off) < 1e-6
+                };
+                assert_eq!(starts.iter().filter(there).count(), OF_A_DISTANCE);
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_found_is_assessed_with_its_start_and_what_led_to_the_best() {
+        let right = placed([20.0, 30.0, 0.0], [0.0; 3]);
+        let start = placed([21.0, 29.0, 1.0], [0.0; 3]);
+        let best = Candidate {
+            pose: start,
+            start,
+            located: Some(crate::finder::fake::located(9)),
+            refined: None,
+            covariance: None,
+            fit: crate::refine::Fit::default(),
+        };
+        let (found, assessed) = around_seen(&right, &[], |around| {
+            around.refine(&start);
+            (around.found.clone(), around.assessed(&best))
+        });
+        let assessed = assessed.expect("in front");
+        assert_eq!((found.len(), assessed.len()), (1, 1));
+        let one = assessed[0];
+        assert_eq!((one.start, one.located), (start, best.located));
+        assert_eq!((one.pose, one.refined), (found[0].1.pose, Some(found[0].1)));
+        assert!(one.covariance.is_some() && one.fit.met > 0.9, "{one:?}");
+        assert!((one.misfit() - misfit(&found[0].1)).abs() < 1e-12);
+    }
+}

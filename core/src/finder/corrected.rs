@@ -128,3 +128,54 @@ pub fn correct_candidates(
     add_mirror_images(model, views[0], planes, &mut corrected, options, memory)?;
     Ok(corrected)
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::finder::fake::{SIDE, camera, crank, drawn, located, placed};
+    use crate::image::mask::Mask;
+    use crate::image::silhouette::Silhouette;
+    use crate::refine::{RefineBuffers, Refined};
+
+    /// Refined poses turned by so many degrees, whose outlines are left by ever more, and those that became candidates.
+    fn added(turns_deg: &[f64], located: Option<Reranked>) -> std::vec::Vec<f64> {
+        let (model, camera, right) = (crank(), camera(), placed([20.0, 30.0, 0.0], [0.0; 3]));
+        let words = drawn(&model, &camera, &right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let view = CameraView::only(&camera, Silhouette::from(&mask));
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        let mut memory = buffers.borrow(&model, &camera);
+        let mut candidates = Vec::new();
+        for (k, &deg) in turns_deg.iter().enumerate() {
+            let pose = placed([20.0, 30.0, deg], [0.0; 3]);
+            let found = RefinedRival {
+                refined: Refined {
+                    loss: 0.02 * (k + 1) as f64,
+                    ..Refined::at(pose)
+                },
+                ..RefinedRival::at(right, k, false)
+            };
+            let added = add_assessed(
+                &model,
+                &view,
+                (&found, located),
+                &mut memory,
+                &mut candidates,
+            );
+            assert_eq!(added, Ok(()));
+        }
+        let refined = candidates.iter().filter_map(|one| one.refined);
+        let numbers = refined.map(|refined| refined.loss / 0.02 - 1.0);
+        numbers
+            .map(|number| turns_deg[libm::round(number) as usize])
+            .collect()
+    }
+
+    #[test]
+    fn a_pose_is_a_candidate_once_and_only_where_it_is_known_what_led_to_it() {
+        let from = Some(located(0));
+        assert_eq!(added(&[0.0, 0.3, 0.0, -0.3], from), [0.0]);
+        assert_eq!(added(&[0.0, 0.9, 0.0, -0.9], from), [0.0, 0.9, -0.9]);
+        assert!(added(&[0.0, 0.9], None).is_empty());
+    }
+}

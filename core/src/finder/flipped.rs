@@ -237,45 +237,4 @@ impl Mirrored {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The looks at a film of so many frames, femur and tibia, whose fits have the gains of their components.
-    fn looked(frames: usize, gains: [f64; 2]) -> (Vec<(KneeComponent, usize)>, usize) {
-        let mut looks = FlippedLooks::new(&alloc::vec![0.0; frames]);
-        let mut seen = Vec::new();
-        while let Some(&(component, frame)) = looks.wanted().first() {
-            seen.push((component, frame));
-            let gain = gains[usize::from(component == KneeComponent::Tibia)];
-            looks.take(Some(FlippedFit {
-                pose: Pose::IDENTITY,
-                gain,
-            }));
-        }
-        let fits = looks.fits();
-        (seen, fits.iter().flatten().count())
-    }
-
-    #[test]
-    fn the_femur_may_tell_that_nothing_is_flipped_and_both_tell_that_something_is() {
-        let (seen, fits) = looked(30, [0.1, 1.0]);
-        assert_eq!((seen.len(), fits), (2, 0));
-        let (seen, fits) = looked(30, [1.5, 1.5]);
-        assert_eq!((seen.len(), fits), (6, 3));
-        let of_tibia =
-            |&&(component, _): &&(KneeComponent, usize)| component == KneeComponent::Tibia;
-        assert_eq!(seen.iter().filter(of_tibia).count(), 3);
-    }
-
-    #[test]
-    fn short_films_and_single_frames_are_looked_at_as_far_as_they_go() {
-        assert_eq!(looked(0, [1.5; 2]), (Vec::new(), 0));
-        for frames in [1, 2] {
-            let (seen, fits) = looked(frames, [1.5; 2]);
-            assert_eq!((seen.len(), fits), (2 * frames, frames), "{frames}");
-        }
-        let known = FlippedLooks::new(&[f64::NAN, 3.0, f64::NAN]);
-        assert_eq!(known.wanted(), [(KneeComponent::Femur, 1)]);
-        assert_eq!(known.fits(), [None]);
-    }
-}
+mod tests;

@@ -148,3 +148,140 @@ fn axis_angle(moments: &Moments) -> f64 {
     let [xx, xy, yy] = moments.covariance();
     0.5 * atan2(-2.0 * xy, xx - yy)
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::finder::fake::{SIDE, camera, crank, drawn, placed};
+    use crate::image::mask::Mask;
+    use crate::pose::geodesic_deg;
+    use crate::refine::RefineBuffers;
+    use std::vec;
+
+    /// How far a pose is from where the silhouette was drawn: degrees, mm in the image plane, and mm along the view, of the model's middle.
+    fn off(pose: &Pose, right: &Pose, middle: &Vector3) -> [f64; 3] {
+        let [x, y, z] = subtract(&pose.transform(middle), &right.transform(middle));
+        [
+            geodesic_deg(&pose.rotation, &right.rotation),
+            norm(&[x, y, 0.0]),
+            z.abs(),
+        ]
+    }
+
+    /// A bar that is turned counter-clockwise on the screen, where rows go down.
+    #[test]
+    fn the_principal_axis_is_the_way_that_a_bar_lies() {
+        for turn_deg in [-80.0, -45.0, -10.0, 0.0, 25.0, 60.0, 90.0] {
+            let (sin, cos) = crate::math::sin_cos(radians(turn_deg));
+            let mut words = vec![0; words_needed(SIDE, SIDE)];
+            let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            for at in 0..SIDE * SIDE {
+                let (right, up) = ((at % SIDE) as f64 - 70.0, 85.0 - (at / SIDE) as f64);
+                let (along, across) = (right * cos + up * sin, up * cos - right * sin);
+                mask.set(
+                    at % SIDE,
+                    at / SIDE,
+                    along.abs() < 49.5 && across.abs() < 7.5,
+                );
+            }
+            let angle = axis_angle(&mask.as_mask().moments());
+            let off = wrap(angle - radians(turn_deg), core::f64::consts::PI);
+            assert!(off.abs() < 0.005, "{turn_deg}: {angle}");
+        }
+    }
+
+    /// In the image plane and along the view a drawing tells all at once; a turn out of that plane is tried.
+    #[test]
+    fn a_start_off_to_all_sides_is_brought_onto_the_silhouette() {
+        let (model, camera) = (crank(), camera());
+        let right = placed([14.0, -9.0, 20.0], [4.0, -6.0, 0.0]);
+        let words = drawn(&model, &camera, &right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let middle = model.as_model().bounds().centre;
+        let silhouette = Silhouette::from(&mask);
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        for (turn_deg, shift) in [
+            ([0.0, 0.0, 25.0], [9.0, 5.0, 60.0]),
+            ([0.0, 0.0, -25.0], [-8.0, -7.0, -70.0]),
+            ([0.0, 0.0, 70.0], [0.0, 9.0, 0.0]),
+            ([WIDE_DEG, 0.0, 9.0], [6.0, 0.0, 30.0]),
+            ([0.0, -WIDE_DEG, 0.0], [0.0, 0.0, 0.0]),
+        ] {
+            let start = about(&middle, &right, &turn_deg.map(radians), shift);
+            let mut memory = buffers.borrow(&model, &camera);
+            let found = nearby(&model, &camera, &silhouette, &start, WIDE_DEG, &mut memory);
+            assert_eq!((found.len(), found.last()), (NEARBY, Some(&start)));
+            let [deg, aside_mm, deeper_mm] = off(&found[0], &right, &middle);
+            assert!(
+                deg < 2.5 && aside_mm < 0.6 && deeper_mm < 12.0,
+                "{turn_deg:?} {shift:?}: {deg} {aside_mm} {deeper_mm}"
+            );
+        }
+    }
+
+    /// Of a part of a silhouette neither area nor centroid is known.
+    #[test]
+    fn of_a_silhouette_that_is_not_known_as_a_whole_the_start_alone_is_left() {
+        let (model, camera) = (crank(), camera());
+        let right = placed([14.0, -9.0, 20.0], [0.0; 3]);
+        let words = drawn(&model, &camera, &right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let nothing = vec![0; words.len()];
+        let unknown = Mask::new(&nothing, SIDE, SIDE).expect("valid");
+        let silhouette = Silhouette::new(&mask, &unknown).expect("as large");
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        let mut memory = buffers.borrow(&model, &camera);
+        let found = nearby(&model, &camera, &silhouette, &right, WIDE_DEG, &mut memory);
+        assert_eq!(found, [right]);
+    }
+
+    /// Of a flat part that faces the camera area, centroid and axis tell all four numbers at once, exactly.
+    #[test]
+    fn a_flat_part_is_brought_onto_its_silhouette_by_one_move() {
+        use crate::mesh::OwnedModel;
+        let (mut vertices, mut triangles) = (vec![], vec![]);
+        crate::mesh::edges::fake::add_box(
+            [-32.0, -14.0, -0.05],
+            [32.0, 14.0, 0.05],
+            &mut vertices,
+            &mut triangles,
+        );
+        let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+        let model = OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("valid");
+        let (camera, model_of) = (camera(), model.as_model());
+        let right = placed([0.0, 0.0, 20.0], [14.0, -19.0, 30.0]);
+        let words = drawn(&model, &camera, &right);
+        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        let silhouette = Silhouette::from(&mask);
+        let mut buffers = RefineBuffers::default();
+        let memory = buffers.borrow(&model_of, &camera);
+        let mut search = NearbySearch {
+            model: &model_of,
+            camera: &camera,
+            silhouette: &silhouette,
+            wanted: mask.moments(),
+            middle: [0.0; 3],
+            moves: 1,
+            scratch: memory.projected,
+            drawn: MaskMut::new(&mut memory.drawn[..words_needed(SIDE, SIDE)], SIDE, SIDE)
+                .expect("fits"),
+        };
+        for (turn_deg, shift) in [
+            (0.0, [0.0, 0.0, 0.0]),
+            (0.0, [-20.0, 0.0, 0.0]),
+            (0.0, [0.0, 25.0, 0.0]),
+            (0.0, [0.0, 0.0, 90.0]),
+            (-30.0, [9.0, 12.0, -110.0]),
+        ] {
+            let turn = [0.0, 0.0, radians(turn_deg)];
+            let start = about(&[0.0; 3], &right, &turn, shift);
+            let (_, moved) = search.moved([0.0; 3], &start).expect("in the frame");
+            let [deg, aside_mm, deeper_mm] = off(&moved, &right, &[0.0; 3]);
+            // About the ray, which is not quite the camera's axis.
+            assert!(
+                deg < 1.0 && aside_mm < 0.25 && deeper_mm < 5.0,
+                "{shift:?}: {deg} {aside_mm} {deeper_mm}"
+            );
+        }
+    }
+}

@@ -240,3 +240,6 @@ fn is_near(
     let limit = SYMMETRIC_FRACTION * silhouette.mask().area() as f64;
     there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

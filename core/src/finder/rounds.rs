@@ -358,3 +358,6 @@ fn keep_open(rivals: &mut Vec<RefinedRival, ANSWERS>, limit: f64, within_deg: f6
 fn is_within(a: &RefinedRival, b: &RefinedRival, within_deg: f64) -> bool {
     geodesic_deg(&a.refined.pose.rotation, &b.refined.pose.rotation) < within_deg
 }
+
+#[cfg(test)]
+mod tests;

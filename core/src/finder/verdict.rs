@@ -380,4 +380,95 @@ mod tests {
         assert_eq!(judged(0.2), Verdict::Good);
         assert!(matches!(judged(0.5), Verdict::Doubtful(Doubt::Unknown { known }) if known == 0.4));
     }
+
+    fn candidate(misfit_px: f64, met: f64) -> Candidate {
+        let pose = crate::pose::Pose::IDENTITY;
+        let mut refined = crate::refine::Refined::at(pose);
+        refined.loss = misfit_px * misfit_px / 2.0;
+        Candidate {
+            pose,
+            start: pose,
+            located: None,
+            refined: Some(refined),
+            covariance: None,
+            fit: Fit {
+                size_px: 150.0,
+                met,
+                known: 1.0,
+                misfit_px,
+                ..Fit::default()
+            },
+        }
+    }
+
+    #[test]
+    fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_leaves_it_open() {
+        let judged = |change: fn(&mut Candidate), open: Option<usize>| {
+            let mut all = [candidate(0.1, 1.0), candidate(0.2, 1.0)];
+            change(&mut all[0]);
+            all[1].pose.rotation = crate::math::rotation_by(&[0.0, crate::math::radians(9.0), 0.0]);
+            let open = open.map(|index| OpenRival {
+                index,
+                chosen_px: 0.1,
+                other_px: 0.2,
+            });
+            let reason = super::super::choice::Reason::Only;
+            let choice = Choice {
+                index: 0,
+                reason,
+                open,
+            };
+            judge(&all, &choice, &Limits::USUAL).map(|verdict| match verdict {
+                Verdict::Doubtful(Doubt::Open { turn_deg, other_px }) => {
+                    (libm::round(turn_deg), other_px > 0.19)
+                }
+                Verdict::Doubtful(Doubt::Undetermined) => (-1.0, false),
+                Verdict::Good => (0.0, false),
+                other => panic!("{other}"),
+            })
+        };
+        let known = |one: &mut Candidate| {
+            let mut information = [[0.0; 6]; 6];
+            (0..6).for_each(|k| information[k][k] = 1e6);
+            one.covariance =
+                crate::pose::covariance::PoseCovariance::from_information(&information);
+        };
+        assert_eq!(judged(|_| {}, None), Some((-1.0, false)));
+        assert_eq!(judged(known, None), Some((0.0, false)));
+        assert_eq!(judged(|one| one.refined = None, None), Some((0.0, false)));
+        assert_eq!(judged(known, Some(1)), Some((9.0, true)));
+        assert_eq!(judged(known, Some(7)), Some((0.0, false)));
+        let none = Choice {
+            index: 3,
+            reason: super::super::choice::Reason::Only,
+            open: None,
+        };
+        assert_eq!(judge(&[candidate(0.1, 1.0)], &none, &Limits::USUAL), None);
+    }
+
+    #[test]
+    fn what_does_not_fit_at_all_is_no_rival_while_another_does() {
+        let misfits = |mets: [f64; 2]| {
+            let all = mets.map(|met| candidate(0.5, met));
+            let rivals = contenders(&all);
+            [0, 1].map(|k| rivals[k].residual_px.is_finite())
+        };
+        let least = Limits::USUAL.least_met;
+        assert_eq!(misfits([least, least]), [true; 2]);
+        assert_eq!(misfits([least, least - 0.01]), [true, false]);
+        assert_eq!(misfits([least - 0.01, least]), [false, true]);
+        assert_eq!(misfits([least - 0.01, least - 0.02]), [true; 2]);
+    }
+
+    #[test]
+    fn parts_of_an_outline_are_told_in_percent() {
+        let unknown = Doubt::Unknown { known: 0.4 }.to_string();
+        assert!(unknown.contains("only 40 % of"), "{unknown}");
+        let refused = Refusal::NoFit {
+            misfit_px: 3.21,
+            met: 0.25,
+        };
+        let refused = refused.to_string();
+        assert!(refused.contains("3.2 px, and 25 % of"), "{refused}");
+    }
 }

@@ -355,4 +355,37 @@ mod tests {
             assert!(geodesic_deg(&turn(cell), &turn(before)) < 1e-9);
         }
     }
+
+    /// A frame that lies off the way, and those beside it, which lie half as far off their own: jumps between all of these and the next are
+    /// crossed both ways.
+    #[test]
+    fn jumps_are_crossed_from_the_frames_on_both_sides_of_each() {
+        let expected: Vec<(usize, bool)> = (8..=11)
+            .flat_map(|frame| [(frame - 1, true), (frame, false)])
+            .collect();
+        assert_eq!(frames_to_cross_from(&film(9..10), &MIDDLE), expected);
+    }
+
+    /// Where what was there leaves less all along, by as much as decides, it is right without a doubt; where it hardly does, both stay open.
+    #[test]
+    fn what_was_there_is_sure_where_another_way_leaves_more_all_along() {
+        let other_ways = |frames: usize, times: f64| {
+            let before: Vec<Cell> = (0..=frames)
+                .map(|frame| Cell::on_the_way(seen(frame, 0.0, 0.5)))
+                .collect();
+            let mut crossing = Crossing::over(&before, 0, true, &MIDDLE).expect("frames behind");
+            while let Some(frame) = crossing.next() {
+                // On the other side of where the part turns to: nowhere between does the one lie nearer to the other.
+                crossing.saw(frame, seen(frame, -5.0, 0.5 * times), (&MIDDLE, &[]));
+            }
+            let mut after = before.clone();
+            crossing.write(&mut after);
+            let stays = |(a, b): (&Cell, &Cell)| a.found() == b.found();
+            assert!(after.iter().zip(&before).all(stays), "{frames} {times}");
+            after.iter().filter(|cell| cell.other_way.is_some()).count()
+        };
+        // A vote is a misfit that is so many times less.
+        assert_eq!(other_ways(3, ELSEWHERE_RATIO), 0);
+        assert_eq!(other_ways(1, 1.01 * ELSEWHERE_RATIO), 1);
+    }
 }

@@ -147,3 +147,81 @@ impl fmt::Display for Distrust {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_told(distrust: Distrust, word: &str, parts: &[&str]) {
+        let told = std::format!("{distrust}");
+        assert!(parts.iter().all(|part| told.contains(part)), "{told}");
+        assert!(!told.ends_with('.') && distrust.word() == word, "{told}");
+    }
+
+    #[test]
+    fn what_a_frame_says_of_its_outline_is_told_with_its_figures() {
+        let residual = "residual";
+        assert_told(
+            Distrust::Faint(0.254),
+            "faint",
+            &["have 25 % of the strength"],
+        );
+        let px = &["1.26 px off", "0.31 px in the better"];
+        assert_told(Distrust::Apart(1.257, 0.31), residual, px);
+        assert_told(
+            Distrust::Unmet(0.62),
+            residual,
+            &["only 62 % of the outline is met"],
+        );
+        assert_told(
+            Distrust::Cut(0.058),
+            "cut off",
+            &["only 6 % of the outline is in"],
+        );
+        assert_told(
+            Distrust::Undetermined(4.04),
+            "undetermined",
+            &["leaves 4.0 degrees"],
+        );
+        assert_told(Distrust::Behind(980.0), "depths", &["980"]);
+    }
+
+    #[test]
+    fn what_other_poses_say_against_one_is_told_with_its_figures() {
+        assert_told(Distrust::Ways(1.54), "two ways", &["1.5 degrees apart"]);
+        assert_told(
+            Distrust::Jump(2.25, 3.21),
+            "jump",
+            &["2.2 degrees", "3.2 mm off"],
+        );
+        let few = Distrust::Few { good: 2, poses: 17 };
+        assert_told(few, "few", &["only 2 of", "17 poses"]);
+        let depths = &["-41 mm farther", "usual in this film"];
+        assert_told(Distrust::Depths(-41.4), "depths", depths);
+        assert_told(
+            Distrust::Joint(61.2),
+            "depths",
+            &["61 mm behind", "no joint does"],
+        );
+        assert_told(
+            Distrust::Side(Rival::Mirrored),
+            "ambiguous",
+            &["mirror image is as likely"],
+        );
+        assert_told(
+            Distrust::Side(Rival::Elsewhere),
+            "ambiguous",
+            &["no mirror image"],
+        );
+        assert_told(
+            Distrust::Shape(KneeComponent::Femur),
+            "shape",
+            &["a femoral component"],
+        );
+        assert_told(
+            Distrust::Shape(KneeComponent::Tibia),
+            "shape",
+            &["a tibial tray"],
+        );
+    }
+}

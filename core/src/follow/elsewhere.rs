@@ -101,3 +101,44 @@ fn starts(pose: &Pose, middle: &Vector3) -> impl Iterator<Item = Pose> {
         about(middle, pose, &[turn * cos, turn * sin, 0.0], [0.0; 3])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::turned;
+    use crate::math::{degrees, multiply, norm, rotation_by, rotation_vector, subtract, transpose};
+
+    #[test]
+    fn starts_are_turned_alike_to_all_sides_out_of_the_image_plane_about_the_middle() {
+        let mut pose = turned(20.0, 0.3).pose;
+        pose.rotation = multiply(&rotation_by(&[0.3, 0.0, -0.8]), &pose.rotation);
+        let middle = [7.0, -4.0, 11.0];
+        let starts: std::vec::Vec<Pose> = starts(&pose, &middle).collect();
+        let turns: std::vec::Vec<Vector3> = (starts.iter())
+            .map(|start| {
+                let off = subtract(&start.transform(&middle), &pose.transform(&middle));
+                assert!(norm(&off) < 1e-9, "{off:?}");
+                let turn = multiply(&start.rotation, &transpose(&pose.rotation));
+                rotation_vector(&turn).map(degrees)
+            })
+            .collect();
+        assert_eq!(turns.len(), 6);
+        for (k, turn) in turns.iter().enumerate() {
+            // A regular hexagon: its sides are as long as its radius.
+            let aside = norm(&subtract(turn, &turns[(k + 1) % 6]));
+            let across = norm(&subtract(turn, &turns[(k + 3) % 6]));
+            assert!(
+                turn[2].abs() < 1e-9 && (norm(turn) - 9.0).abs() < 1e-9,
+                "{turn:?}"
+            );
+            assert!((aside - 9.0).abs() < 1e-9 && (across - 18.0).abs() < 1e-9);
+        }
+        let apart = |deg: f64| {
+            are_one(
+                &pose,
+                &about(&middle, &pose, &[radians(deg), 0.0, 0.0], [5.0; 3]),
+            )
+        };
+        assert!(apart(1.99) && apart(-1.99) && !apart(2.01));
+    }
+}

@@ -193,4 +193,51 @@ mod tests {
         assert_eq!(wanted, [Some(7), Some(20), Some(50)]);
         assert!(last.split().is_none());
     }
+
+    #[test]
+    fn three_poses_are_read_with_what_lies_beside_them_and_all_that_are_asked_for_as_they_are() {
+        let mut reading = FilmReading::new([0.0; 3], 60, 0);
+        assert_eq!(reading.wanted(), None);
+        for frame in [60, 7, 20, 99, 50, 55] {
+            reading.give(frame, Pose::IDENTITY);
+        }
+        for frame in [3, 60, 59, 4, 5, 6] {
+            reading.ask(frame, Pose::IDENTITY);
+        }
+        let tasks: Vec<(usize, bool)> = (reading.tasks.iter())
+            .filter_map(|task| match task {
+                Task::At(frame, _) => Some((*frame, true)),
+                Task::Just(frame, _) => Some((*frame, false)),
+                Task::Beside(..) => None,
+            })
+            .collect();
+        let just = [3, 59, 4, 5, 6].map(|frame| (frame, false));
+        let at = [7, 20, 50].map(|frame| (frame, true));
+        assert_eq!(tasks, [&at[..], &just].concat());
+        assert_eq!(reading.wanted(), Some(7));
+    }
+
+    /// A way is asked for as far as it leads, and then what comes next.
+    #[test]
+    fn what_lies_beside_a_pose_is_wanted_to_both_sides_before_the_next_one() {
+        use crate::follow::fake::{looked, turned};
+        let mut reading = FilmReading::new([0.0; 3], 60, 0);
+        let anchor = Anchor::found(7, turned(0.0, 0.3));
+        for to in [1, 13] {
+            let way = Way::begin(&anchor, to >= 7);
+            reading.tasks.push_back(Task::Beside(Box::new(way), to));
+        }
+        reading.ask(40, Pose::IDENTITY);
+        let mut wanted = Vec::new();
+        while let Some(frame) = reading.wanted() {
+            wanted.push(frame);
+            match reading.tasks.front_mut() {
+                Some(Task::Beside(way, _)) => {
+                    way.take(frame, &looked(Ok(turned(0.0, 0.3))), &[0.0; 3])
+                }
+                _ => drop(reading.tasks.pop_front()),
+            }
+        }
+        assert_eq!(wanted, [6, 5, 4, 3, 2, 1, 8, 9, 10, 11, 12, 13, 40]);
+    }
 }

@@ -116,3 +116,63 @@ fn usual_step(frame: &dyn Grey) -> f64 {
     // Of a frame without any nothing is a step.
     (STEPS * sum / count.max(1) as f64).max(f64::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::frame::Frame;
+    use proptest::prelude::*;
+    use std::vec::Vec as Many;
+
+    fn step_of(pixels: &[u8], width: usize, height: usize) -> f64 {
+        usual_step(&Frame::new(pixels, width, height, width).expect("valid"))
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        /// Of a frame with as many pixels to a side as it is asked at, each is asked: the naive way compares all that are eight apart.
+        #[test]
+        fn a_usual_step_is_three_times_the_mean_change_over_eight_pixels(seed in 0u32..1000, dark in 0usize..64) {
+            let mut random = seed;
+            let pixels: Many<u8> = (0..ASKED * ASKED).map(|k| {
+                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                if k % ASKED < dark { 7 } else { (random >> 24) as u8 }
+            }).collect();
+            let at = |column: usize, row: usize| f64::from(pixels[row * ASKED + column]);
+            let mut changes = Many::new();
+            for (one, other) in (0..ASKED * ASKED).map(|k| (k % ASKED, k / ASKED)) {
+                if one + 8 < ASKED {
+                    changes.push((at(one + 8, other) - at(one, other)).abs());
+                    changes.push((at(other, one + 8) - at(other, one)).abs());
+                }
+            }
+            let wanted = 3.0 * changes.iter().sum::<f64>() / changes.len() as f64;
+            let found = step_of(&pixels, ASKED, ASKED);
+            prop_assert!((found - wanted).abs() < 1e-9 * wanted.max(1.0), "{found} {wanted}");
+        }
+    }
+
+    /// Of any size; what rises by one a pixel, either way, changes by eight.
+    #[test]
+    fn an_even_slope_has_one_step_whatever_the_size_of_its_frame() {
+        for (width, height) in [(64, 64), (150, 40), (23, 90)] {
+            for (right, down) in [(1, 1), (-1, 1), (-1, -1)] {
+                let grey = |k: usize| {
+                    let (column, row) = ((k % width) as i32, (k / width) as i32);
+                    let of = |sign: i32, at: i32, side: usize| {
+                        if sign > 0 { at } else { side as i32 - 1 - at }
+                    };
+                    (of(right, column, width) + of(down, row, height)) as u8
+                };
+                let pixels: Many<u8> = (0..width * height).map(grey).collect();
+                let found = step_of(&pixels, width, height);
+                assert!((found - 24.0).abs() < 1e-9, "{width} {height}: {found}");
+            }
+        }
+        let (blank, small) = (step_of(&[9; 400], 20, 20), step_of(&[9, 200], 2, 1));
+        assert!(
+            blank > 0.0 && blank < 1e-9 && small > 0.0,
+            "what divides by it"
+        );
+    }
+}

@@ -235,3 +235,6 @@ pub(super) fn beside(pose: &Pose, middle: &Vector3, part: f64) -> [Pose; 6] {
         moved(-part),
     ]
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

@@ -69,6 +69,8 @@ mod tests {
     use crate::follow::fake::{looked, turned};
     use crate::follow::{Rival, SideStep};
     use crate::math::{degrees, sqrt};
+    use proptest::array::uniform6;
+    use proptest::prelude::*;
     use std::vec::Vec;
 
     /// Three frames at one pose, the middle one of which has its mirror image so far off, and what is known of the turn about the vertical in
@@ -110,5 +112,53 @@ mod tests {
         assert_eq!(told(1.8, 1.1, false), alone);
         assert_eq!(told(0.01, 0.5, false), alone);
         assert_eq!(told(1.8, 0.5, true), alone);
+    }
+
+    properties! {
+        /// As wide along the turn as half of it at least, no narrower than before in any direction, and no wider than it needs to be.
+        #[test]
+        fn a_covariance_is_widened_along_the_step_alone_and_once(
+            factor in uniform6(uniform6(-1.0..1.0f64)), step in uniform6(-1.0..1.0f64), size in 0.0..4.0f64,
+        ) {
+            let before = PoseCovariance {
+                matrix: core::array::from_fn(|a| core::array::from_fn(|b| (0..6).map(|k| factor[a][k] * factor[b][k]).sum())),
+            };
+            let step = step.map(|value| size * value);
+            let squared: f64 = step[..3].iter().map(|value| value * value).sum();
+            let along = |covariance: &PoseCovariance| -> f64 {
+                let each = (0..9).map(|k| step[k / 3] * covariance.matrix[k / 3][k % 3] * step[k % 3]);
+                each.sum::<f64>() / squared.max(f64::MIN_POSITIVE)
+            };
+            let mut after = before;
+            widen(&mut after, &step);
+            let wanted = along(&before).max(PART * PART * squared);
+            prop_assert!((along(&after) - wanted).abs() < 1e-9 * (1.0 + wanted), "{} {wanted}", along(&after));
+            // What was added is a part of the step in all six, the same everywhere.
+            let part = (along(&after) - along(&before)) / squared.max(f64::MIN_POSITIVE);
+            for (row, column) in (0..36).map(|k| (k / 6, k % 6)) {
+                let more = after.matrix[row][column] - before.matrix[row][column];
+                prop_assert!((more - part * step[row] * step[column]).abs() < 1e-9 * (1.0 + part), "{row} {column}: {more}");
+            }
+            let once = after;
+            widen(&mut after, &step);
+            for (again, once) in after.matrix.as_flattened().iter().zip(once.matrix.as_flattened()) {
+                prop_assert!((again - once).abs() < 1e-9 * (1.0 + once.abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_turn_and_where_it_is_known_worse_nothing_is_added() {
+        let wide = turned(0.0, 0.3).covariance.expect("known");
+        // 0.06 degrees are known to no better than 0.06.
+        for step in [
+            [0.0, 0.0, 0.0, 3.0, 4.0, 5.0],
+            [0.0, 1e-3, 0.0, 3.0, 4.0, 5.0],
+            [0.0; 6],
+        ] {
+            let mut after = wide;
+            widen(&mut after, &step);
+            assert_eq!(after, wide, "{step:?}");
+        }
     }
 }

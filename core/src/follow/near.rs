@@ -4,6 +4,7 @@
 use heapless::Vec;
 
 use super::subject::Subject;
+use super::thinned::Thinned;
 use crate::finder::nearby::about;
 use crate::math::{Vector3, norm, radians, scale, sin_cos};
 use crate::pose::Pose;
@@ -157,24 +158,16 @@ impl Outline {
         let [x, y, z] = pose.transform(&subject.model.bounds().centre);
         let ([fx, fy], [cx, cy]) = (subject.camera.focal(), subject.camera.principal_point());
         let middle = [cx + fx * x / -z, cy - fy * y / -z];
-        let mut samples: Vec<[f64; 4], SAMPLES> = Vec::new();
-        let (mut every, mut number) = (1, 0usize);
+        let mut samples = Thinned::<[f64; 4], SAMPLES>::new();
         let mut add = |sample: &OutlineSample| {
-            number += 1;
-            if !number.is_multiple_of(every) {
-                return;
-            }
-            let [right, down] = sample.normal;
-            let (column, row) = (sample.column - middle[0], sample.row - middle[1]);
-            if samples.push([column, row, right, down]).is_err() {
-                for at in 0..SAMPLES / 2 {
-                    samples[at] = samples[2 * at];
-                }
-                samples.truncate(SAMPLES / 2);
-                every *= 2;
+            if samples.counts_next() {
+                let [right, down] = sample.normal;
+                let (column, row) = (sample.column - middle[0], sample.row - middle[1]);
+                samples.keep([column, row, right, down]);
             }
         };
         outline_samples(subject.model, subject.camera, pose, memory, &mut add)?;
+        let samples = samples.into_kept();
         Ok(Self { samples, middle })
     }
 
@@ -305,108 +298,4 @@ fn insert(best: &mut Vec<Place, NEAR>, place: Place) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::image::frame::Frame;
-    use proptest::prelude::*;
-    use std::vec::Vec as Many;
-
-    const SIDE: usize = 160;
-    const MIDDLE: f64 = 80.0;
-    /// Half of the sides of a plate that is hardly thicker than a step.
-    const HALF: [f64; 2] = [40.0, 5.0];
-
-    /// A dark plate about a place, turned counter-clockwise on the screen.
-    fn plate([right, down]: [f64; 2], turn_deg: f64) -> Many<u8> {
-        let (sin, cos) = sin_cos(radians(turn_deg));
-        let grey = |k: usize| {
-            let x = (k % SIDE) as f64 + 0.5 - MIDDLE - right;
-            let y = (k / SIDE) as f64 + 0.5 - MIDDLE - down;
-            let (along, across) = (x * cos - y * sin, x * sin + y * cos);
-            let is_metal = along.abs() < HALF[0] && across.abs() < HALF[1];
-            if is_metal { 40 } else { 200 }
-        };
-        (0..SIDE * SIDE).map(grey).collect()
-    }
-
-    fn outline() -> Outline {
-        let mut samples = Vec::new();
-        for k in 0..40 {
-            let at = 2.0 * f64::from(k) - HALF[0] + 1.0;
-            for side in [-1.0, 1.0] {
-                let _ = samples.push([at, side * HALF[1], 0.0, side]);
-            }
-        }
-        for k in 0..5 {
-            let at = 2.0 * f64::from(k) - HALF[1] + 1.0;
-            for side in [-1.0, 1.0] {
-                let _ = samples.push([side * HALF[0], at, side, 0.0]);
-            }
-        }
-        Outline {
-            samples,
-            middle: [MIDDLE; 2],
-        }
-    }
-
-    /// How far a sample on a long side lies across from that side of the plate, pixels.
-    fn across_from_plate(
-        sample: &[f64; 4],
-        settled: &Place,
-        shift: [f64; 2],
-        turn_deg: f64,
-    ) -> f64 {
-        let place = [0, 1].map(|k| sample[k] + settled.shift[k] - shift[k]);
-        let (sin, cos) = sin_cos(radians(turn_deg));
-        let (across, side) = (place[0] * sin + place[1] * cos, sample[3]);
-        (across.abs() - HALF[1])
-            .abs()
-            .max(if across * side < 0.0 { HALF[1] } else { 0.0 })
-    }
-
-    properties! {
-        #[test]
-        fn a_place_within_a_step_of_a_plate_settles_on_its_edges(
-            shift in proptest::array::uniform2(-3.0..3.0f64), turn_deg in -1.5..1.5f64,
-        ) {
-            let pixels = plate(shift, turn_deg);
-            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-            let image = ImageTarget {
-                frame: &frame,
-                unknown: None,
-                polarity: Polarity::DarkImplant,
-                film: None,
-            };
-            let outline = outline();
-            let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
-            let start = Place { score: f64::MIN, out: [0.0; 2], turn_deg: 0.0, shift: [0.0; 2] };
-            let settled = sliding.settled(start);
-            prop_assert!(settled.score > 0.9, "{settled:?}");
-            // Readings lie four pixels to each side: nearer than that no place is better than another.
-            let turned = outline.turned(radians(settled.turn_deg));
-            for sample in turned.iter().take(80) {
-                let px = across_from_plate(sample, &settled, shift, turn_deg);
-                prop_assert!(px < HALF_PX + 0.5, "{px} px: {settled:?}");
-            }
-        }
-
-        /// The naive way is to ask every sample.
-        #[test]
-        fn what_is_given_up_early_would_not_have_been_more(
-            plate_at in proptest::array::uniform2(-30.0..30.0f64), plate_deg in -40.0..40.0f64,
-            shift in proptest::array::uniform2(-70.0..70.0f64), turn_deg in -40.0..40.0f64, least in -0.3..1.1f64,
-        ) {
-            let pixels = plate(plate_at, plate_deg);
-            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-            let image = ImageTarget { frame: &frame, unknown: None, polarity: Polarity::DarkImplant, film: None };
-            let outline = outline();
-            let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
-            let turned = outline.turned(radians(turn_deg));
-            let [naive, early] = [f64::MIN, least].map(|least| sliding.score_above(least, &turned, shift));
-            match early {
-                Some(_) => prop_assert_eq!(early, naive),
-                None => prop_assert!(naive.is_none_or(|naive| naive <= least + 1e-9), "{naive:?}"),
-            }
-        }
-    }
-}
+mod tests;

@@ -152,6 +152,61 @@ mod tests {
         assert!(frames_to_search(&(5..5)).is_empty());
     }
 
+    /// A short run is looked at in its quarters, and where the last of these lies too near to its middle, in an eighth.
+    #[test]
+    fn frames_of_a_short_run_lie_apart_and_within_it() {
+        assert_eq!(frames_to_search(&(0..13))[..], [6, 1, 11]);
+        assert_eq!(frames_to_search(&(20..34))[..], [27, 23, 32]);
+        for length in 1..200 {
+            for start in [0, 17] {
+                let run = start..start + length;
+                let frames = frames_to_search(&run);
+                assert_eq!(frames[0], start + length / 2);
+                let apart = SPACING.min(length.div_ceil(PART));
+                for (k, frame) in frames.iter().enumerate() {
+                    assert!(run.contains(frame));
+                    let near = frames[..k]
+                        .iter()
+                        .any(|other| other.abs_diff(*frame) < apart);
+                    assert!(!near, "{run:?}: {frames:?}");
+                }
+                // Of a run that has room for all three none is left out.
+                assert!(frames.is_full() || length < 12, "{run:?}: {frames:?}");
+                let moved = frames_to_search(&(0..length));
+                assert!(frames.iter().map(|frame| frame - start).eq(moved));
+            }
+        }
+    }
+
+    /// Frames between others, at the beginning of the film and at its end are missing, and what hides a part for a while was come up to from
+    /// both sides: its middle is enough.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn a_short_run_at_an_end_of_the_film_is_searched_like_a_long_one() {
+        let searched = |missing: Range<usize>| {
+            let cell = |frame: usize| match missing.contains(&frame) {
+                true => Cell::on_the_way(looked(Err(Missing::Hidden))),
+                false => Cell::on_the_way(looked(Ok(turned(0.0, 0.3)))),
+            };
+            let cells: Vec<Cell> = (0..30).map(cell).collect();
+            let (mut runs, mut count) = (RunsToSearch::default(), 0);
+            while let Some((frame, run)) = runs.next(&cells, &(0..60)) {
+                assert_eq!(run, missing);
+                runs.searched(frame, &run, false);
+                count += 1;
+            }
+            count
+        };
+        assert_eq!(
+            [searched(0..7), searched(23..30), searched(1..8)],
+            [3, 3, 1]
+        );
+        assert_eq!(
+            [searched(1..9), searched(22..29), searched(21..29)],
+            [3, 1, 3]
+        );
+    }
+
     #[cfg(feature = "alloc")]
     #[test]
     fn beside_the_other_component_it_is_searched_where_that_is_known() {

@@ -197,4 +197,122 @@ mod tests {
         given[7].fixed = true;
         assert!(second_looks(&given, &MIDDLE).is_empty());
     }
+
+    const USUAL: Usual = Usual {
+        misfit_px: 0.4,
+        step: 160.0,
+        strength: 1.0,
+    };
+
+    /// Twenty degrees or thirty millimetres from where it is expected cost as much as a usual misfit.
+    #[test]
+    fn a_pose_costs_the_more_the_farther_it_is_from_where_it_is_led() {
+        let look = SecondLook {
+            frame: 3,
+            own: turned(0.0, 0.4),
+            expected: turned(0.0, 0.0).pose,
+            usual: USUAL,
+        };
+        let cost = |deg: f64, mm: f64, misfit_px: f64| {
+            let mut found = turned(deg, misfit_px);
+            found.pose.translation[1] = mm;
+            look.cost(&found, &MIDDLE)
+        };
+        for (deg, mm, misfit_px, wanted) in [
+            (0.0, 0.0, 0.5, 1.0),
+            (20.0, 0.0, 0.5, 2.0),
+            (-20.0, 30.0, 0.5, 3.0),
+            (10.0, -60.0, 0.0, 2.5),
+        ] {
+            let found = cost(deg, mm, misfit_px);
+            assert!(
+                (found - wanted).abs() < 1e-6,
+                "{deg} {mm} {misfit_px}: {found}"
+            );
+        }
+    }
+
+    /// A frame of the crank, expected a little beside where it is seen, whose own pose so far is the expected one turned by so many degrees.
+    fn found_again(off_deg: f64, misfit_px: f64) -> (Option<FramePose>, Pose) {
+        use crate::finder::fake::{SIDE, camera, crank, grey, placed};
+        use crate::image::frame::Frame;
+        use crate::refine::{Polarity, RefineBuffers};
+        let (model, camera) = (crank(), camera());
+        let right = placed([20.0, 30.0, 5.0], [2.0, -3.0, 0.0]);
+        let pixels = grey(&model, &camera, &right);
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
+        let image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let mut own = turned(0.0, misfit_px);
+        own.pose = placed([20.0, 30.0, 5.0 + off_deg], [2.0, -3.0, 0.0]);
+        own.contrast.step = 160.0;
+        let look = SecondLook {
+            frame: 3,
+            own,
+            expected: placed([20.5, 29.5, 6.0], [1.0, -2.0, 0.0]),
+            usual: USUAL,
+        };
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        let subject = Subject::new(&model, &[], &camera);
+        let mut memory = buffers.borrow(&model, &camera);
+        (look.run(&subject, &image, &mut memory), right)
+    }
+
+    #[test]
+    fn a_second_look_finds_what_is_better_by_far_and_nothing_else() {
+        let (found, right) = found_again(40.0, 1.5);
+        let found = found.expect("better");
+        let [deg, mm] = apart(&right, &found.pose, &MIDDLE);
+        assert!(deg < 3.0 && mm < 1.0, "{deg} {mm}");
+        assert_eq!(found_again(0.0, 0.0).0, None);
+    }
+
+    #[test]
+    fn frames_that_lead_to_another_lie_at_most_six_away() {
+        let looked_at = |missing: &[usize]| {
+            let cells: Vec<Cell> = (0..24)
+                .map(|k| match missing.contains(&k) {
+                    true => Cell::default(),
+                    false => cell(4.0 * k as f64, if k == 10 { 0.9 } else { 0.45 }),
+                })
+                .collect();
+            second_looks(&cells, &MIDDLE).len()
+        };
+        let frames = |run: core::ops::Range<usize>| run.collect::<Vec<usize>>();
+        assert_eq!(
+            [frames(11..16), frames(5..10)].map(|run| looked_at(&run)),
+            [1; 2]
+        );
+        assert_eq!(
+            [frames(11..17), frames(4..10)].map(|run| looked_at(&run)),
+            [0; 2]
+        );
+    }
+
+    #[test]
+    fn what_is_usual_is_the_middle_one_of_each_number() {
+        let pose = |misfit_px: f64, step: f64, strength: f64| {
+            let mut found = turned(0.0, misfit_px);
+            (found.contrast.step, found.contrast.strength) = (step, strength);
+            found
+        };
+        let all = [
+            pose(5.0, 10.0, 0.9),
+            pose(1.0, 50.0, 0.1),
+            pose(3.0, 20.0, 0.5),
+            pose(2.0, 40.0, 0.7),
+            pose(4.0, 30.0, 0.3),
+        ];
+        let Usual {
+            misfit_px,
+            step,
+            strength,
+        } = usual(all.iter()).expect("some");
+        assert_eq!([misfit_px, step, strength], [3.0, 30.0, 0.5]);
+        assert_eq!(usual(core::iter::empty()), None);
+    }
 }

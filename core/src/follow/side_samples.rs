@@ -346,6 +346,124 @@ mod tests {
         };
         assert_eq!(film(None), [2, 7, 12, 17, 22, 27]);
         assert_eq!(film(Some(14)), [2, 7, 12, 13, 14, 15, 16, 17, 22, 27]);
+        assert_eq!(film(Some(15)), [2, 7, 12, 13, 14, 15, 16, 17, 22, 27]);
+        assert_eq!(film(Some(20)), [2, 7, 12, 17, 18, 19, 20, 21, 22, 27]);
+    }
+
+    /// Halfway between two frames that were seen one side is left for the other.
+    #[test]
+    fn a_run_reaches_halfway_to_those_beside_it_and_goes_from_its_best_frame() {
+        let runs = |sides: [bool; 5]| -> Vec<(Range<usize>, usize)> {
+            let numbers = [2, 8, 15, 20, 29];
+            let samples = numbers.map(|frame| SideSample {
+                frame,
+                own: turned(0.0, 0.8),
+                rival: Rival::Mirrored,
+                // The later the better.
+                other: Some(turned(17.0, 1.0 - 0.02 * frame as f64)),
+                fixed: false,
+            });
+            let mut steps = [SideStep::default(); 5];
+            for (step, goes_over) in steps.iter_mut().zip(sides) {
+                step.side = if goes_over { Side::Mirrored } else { Side::Own };
+            }
+            let runs = runs_to_go_over(&samples, &steps, 40);
+            runs.map(|(run, anchor)| (run, anchor.frame)).collect()
+        };
+        assert_eq!(runs([false, true, true, false, false]), [(6..18, 15)]);
+        assert_eq!(
+            runs([true, false, true, false, true]),
+            [(0..6, 2), (12..18, 15), (25..40, 29)]
+        );
+        assert_eq!(runs([true; 5]), [(0..40, 29)]);
+        assert!(runs([false; 5]).is_empty());
+    }
+
+    /// Sides nine degrees apart; two thirds of the way to the rejected one that is twice as near.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn a_pose_has_left_the_chosen_side_where_the_rejected_one_is_twice_as_near() {
+        let left = |side, other: f64, now: f64, rival| {
+            let sample = SideSample {
+                frame: 3,
+                own: turned(0.0, 0.3),
+                rival,
+                other: Some(turned(other, 0.3)),
+                fixed: false,
+            };
+            let chosen = sample.chosen_but_left(side, &turned(now, 0.3));
+            chosen.map(|found| {
+                if found == sample.own {
+                    Side::Own
+                } else {
+                    Side::Mirrored
+                }
+            })
+        };
+        let mirrored = Rival::Mirrored;
+        assert_eq!(left(Side::Own, 9.0, 5.95, mirrored), None);
+        assert_eq!(left(Side::Own, 9.0, 6.05, mirrored), Some(Side::Own));
+        assert_eq!(left(Side::Mirrored, 9.0, 3.05, mirrored), None);
+        assert_eq!(
+            left(Side::Mirrored, 9.0, 2.95, mirrored),
+            Some(Side::Mirrored)
+        );
+        // Of sides that are one, and of what is no mirror image, none is left.
+        assert_eq!(left(Side::Own, 4.01, 4.0, mirrored), Some(Side::Own));
+        assert_eq!(left(Side::Own, 3.99, 4.0, mirrored), None);
+        assert_eq!(left(Side::Own, 9.0, 9.0, Rival::Elsewhere), None);
+    }
+
+    /// Sides ten degrees apart, between which a trail turns on: as far as it has turned, they are less sure to be told apart, the less the
+    /// farther it is; halfway nothing is told. A limb's swing in the image plane changes nothing of it.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn how_sure_a_trail_went_over_follows_from_how_far_it_turned_out_of_the_plane() {
+        let sample = |own: f64, other: f64, swing: f64| {
+            let seen = |deg: f64| {
+                let mut found = turned(deg, 0.5);
+                let swung = rotation_by(&[0.0, 0.0, swing]);
+                found.pose.rotation = multiply(&swung, &found.pose.rotation);
+                found
+            };
+            SideSample {
+                frame: 0,
+                own: seen(own),
+                rival: Rival::Mirrored,
+                other: Some(seen(other)),
+                fixed: false,
+            }
+        };
+        for swing in [0.0, 0.4, -1.2] {
+            for (turn, sure) in [
+                (0.0, 1.0),
+                (4.0, 1.0),
+                (5.0, 1.0),
+                (8.0, 0.4),
+                (9.0, 0.2),
+                (10.0, 0.0),
+            ] {
+                let before = sample(0.0, 10.0, 0.0);
+                for (now, went_over) in [
+                    (sample(turn, 10.0 + turn, swing), false),
+                    (sample(10.0 + turn, turn, swing), true),
+                ] {
+                    let told = now.went_over_since(&before);
+                    assert!((told.1 - sure).abs() < 1e-6, "{swing} {turn}: {told:?}");
+                    assert!(
+                        sure == 0.0 || told.0 == went_over,
+                        "{swing} {turn}: {told:?}"
+                    );
+                    let elsewhere = SideSample {
+                        rival: Rival::Elsewhere,
+                        ..now
+                    };
+                    assert_eq!(elsewhere.went_over_since(&before), (false, 1.0));
+                    let alone = SideSample { other: None, ..now };
+                    assert_eq!(alone.went_over_since(&before), (false, 1.0));
+                }
+            }
+        }
     }
 
     #[cfg(feature = "alloc")]

@@ -67,3 +67,36 @@ impl<'s> Starts<'s> {
         seen(subject, image, &refined, memory).ok()
     }
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::finder::fake::{SIDE, camera, crank, grey, placed};
+    use crate::follow::frame_pose::From;
+    use crate::image::frame::Frame;
+    use crate::refine::{Polarity, RefineBuffers};
+
+    #[test]
+    fn a_start_leads_nowhere_that_leaves_more_than_is_allowed() {
+        let (model, camera) = (crank(), camera());
+        let right = placed([20.0, 30.0, 5.0], [2.0, -3.0, 0.0]);
+        let pixels = grey(&model, &camera, &right);
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
+        let image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
+        let subject = Subject::new(&model, &[], &camera);
+        let mut memory = buffers.borrow(&model, &camera);
+        let starts = Starts::new(&subject, &image);
+        let start = (&placed([20.5, 29.5, 6.0], [1.0, -2.0, 0.0]), From::Near);
+        let found = starts.lead(start, &mut memory).expect("found");
+        assert!(found.misfit_px > 0.0);
+        let [less, more] = [0.99, 1.01]
+            .map(|times| starts.lead_within(times * found.misfit_px, start, &mut memory));
+        assert_eq!((less, more), (None, Some(found)));
+    }
+}

@@ -195,3 +195,6 @@ pub(super) fn in_plane(from: &Vector3, to: &Vector3) -> Vector3 {
     let away = if to[2] == 0.0 { 1.0 } else { from[2] / to[2] };
     subtract(&[to[0] * away, to[1] * away, 0.0], &[from[0], from[1], 0.0])
 }
+
+#[cfg(test)]
+mod tests;

@@ -87,4 +87,21 @@ mod tests {
         // One that leaves less is the better pose, however near it is.
         assert!(is_open(Rival::Elsewhere, 0.0, 1.9));
     }
+
+    /// 2 where nothing speaks against it, and at the margin that decides as bad as is doubtful: nothing lies between that and no doubt.
+    #[test]
+    fn another_pose_is_the_worse_the_less_its_margin_is() {
+        let open = |margin: f64| {
+            TrustLimits::USUAL.open(&SideMargin {
+                rival: Rival::Mirrored,
+                margin,
+                apart_deg: 9.0,
+            })
+        };
+        assert_eq!(
+            [-1.5, 0.0, 0.25, 0.75, DECIDES, 4.0].map(open),
+            [3.5, 2.0, 1.75, 1.25, 0.0, 0.0]
+        );
+        assert!(open(0.999) > 1.0);
+    }
 }

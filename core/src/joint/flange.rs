@@ -152,6 +152,62 @@ mod tests {
         }
     }
 
+    /// A flange that rises evenly from one side to the other: a place that lies a part of half the width off the middle is higher than the
+    /// one across from it by that part of what the corners differ by, and in the median it is the middle of [`PLACED`].
+    #[test]
+    fn an_evenly_rising_flange_leans_by_what_its_corners_differ_by_wherever_it_lies() {
+        let field = Pose {
+            rotation: crate::math::rotation_by(&[0.4, -0.7, 0.3]),
+            translation: [50.0, -20.0, 300.0],
+        };
+        for (left, right) in [(50.0, 30.0), (31.0, 47.0), (40.0, 40.0)] {
+            let (vertices, triangles) = bow(left, right);
+            // Far beside the middle of its axes.
+            let place = |[x, y, z]: &[f32; 3]| {
+                let moved = field.transform(&[x + 11.0, y - 7.0, z + 90.0].map(f64::from));
+                moved.map(|mm| mm as f32)
+            };
+            let moved: Vec<[f32; 3]> = vertices.iter().map(place).collect();
+            let mesh = Mesh::new(&moved, &triangles).expect("valid");
+            let axes = AnatomicalAxes {
+                model_from_field: field,
+                front_is_known: true,
+                are_files_own: true,
+            };
+            let wanted = (PLACED.0 + PLACED.1) / 2.0 * f64::from(right - left) / 70.0;
+            let found = leaning(&mesh, &axes).expect("a flange");
+            assert!((found - wanted).abs() < 1e-5, "{found} {wanted}");
+        }
+    }
+
+    /// From either end, and with an end in the very plane, of which just one of two sides that go on from it may be met.
+    #[test]
+    fn a_side_meets_a_plane_in_one_point_whichever_end_comes_first() {
+        let axis = [0.0, 0.6, 0.8];
+        let at = |mm: f64, aside: f64| [aside, 0.6 * mm, 0.8 * mm];
+        for low in -3..=3 {
+            for high in low..=3 {
+                let ends = [at(f64::from(low), 5.0), at(f64::from(high), -1.0)];
+                for mm in [-2.5, -1.0, 0.0, 0.5, 2.0] {
+                    let met = at_distance(&ends, &axis, mm);
+                    let turned = at_distance(&[ends[1], ends[0]], &axis, mm);
+                    assert_eq!(met.is_some(), turned.is_some(), "{low} {high} {mm}");
+                    let (from, to) = (f64::from(low), f64::from(high));
+                    if from < mm && mm < to {
+                        let aside = 5.0 - 6.0 * (mm - from) / (to - from);
+                        for point in [met, turned] {
+                            let off = subtract(&point.expect("between"), &at(mm, aside));
+                            assert!(dot(&off, &off) < 1e-18, "{point:?}");
+                        }
+                    }
+                    if mm < from || to < mm || from == to {
+                        assert_eq!(met, None, "{low} {high} {mm}");
+                    }
+                }
+            }
+        }
+    }
+
     #[test]
     fn the_other_side_is_told_and_the_right_one_is_not() {
         let (vertices, triangles) = bow(50.0, 30.0);

@@ -79,3 +79,40 @@ pub(super) fn add_product(matrix: &mut [[f64; 6]; 6], a: &Step, b: &Step) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_distance_moves_along_the_view_and_a_wrong_size_along_the_ray() {
+        let known = KnownTo {
+            distance: 0.01,
+            size: 0.002,
+        };
+        let film = [[[1.0; 6], [2.0; 6]], [[3.0; 6], [4.0; 6]]];
+        let middles = [[10.0, -20.0, -1000.0], [5.0, 0.0, -500.0]];
+        let none = [0.0; 6];
+        let found = steps(middles, film, known);
+        let wanted = [
+            [[1.0; 6], [3.0; 6]],
+            [[2.0; 6], [4.0; 6]],
+            [
+                [0.0, 0.0, 0.0, 0.0, 0.0, -10.0],
+                [0.0, 0.0, 0.0, 0.0, 0.0, -5.0],
+            ],
+            [[0.0, 0.0, 0.0, 0.02, -0.04, -2.0], none],
+            [none, [0.0, 0.0, 0.0, 0.01, 0.0, -1.0]],
+        ];
+        assert_eq!(found, wanted);
+        // The film's constants are in a covariance already; what is not is added.
+        let covariance = PoseCovariance {
+            matrix: [[0.0; 6]; 6],
+        };
+        let femur = widened(&covariance, &found, 0).matrix;
+        assert!((femur[5][5] - 104.0).abs() < 1e-12 && (femur[3][4] + 0.0008).abs() < 1e-12);
+        assert_eq!(femur[0], none);
+        let tibia = widened(&covariance, &found, 1).matrix;
+        assert!((tibia[5][5] - 26.0).abs() < 1e-12 && (tibia[5][3] + 0.01).abs() < 1e-12);
+    }
+}

@@ -53,3 +53,37 @@ impl Beside {
         take_better(cells, &anew)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::{looked, turned};
+
+    #[test]
+    fn what_lies_on_other_edges_is_looked_for_and_taken_where_it_is_better() {
+        let cell = |deg: f64, misfit_px: f64| Cell::on_the_way(looked(Ok(turned(deg, misfit_px))));
+        let (good, poor) = (cell(0.0, 0.3), cell(20.0, 1.3));
+        let film = [good, poor, good, good];
+        let known = film.map(|cell| cell.found().copied().filter(|found| found.misfit_px < 1.0));
+        let other = [None, Some(Pose::IDENTITY), Some(Pose::IDENTITY), None];
+        let begin = || Beside::new(&film, known.to_vec(), other.to_vec());
+        let runs = RunsToSearch::default();
+        let asked = |cells: &mut Vec<Cell>| {
+            let next = begin().next(cells, &runs, &(0..4));
+            next.map(|(frame, run, _)| (frame, run))
+        };
+        let mut cells = film.to_vec();
+        assert_eq!(asked(&mut cells), Some((1, 1..2)));
+        assert_eq!(cells, [good, Cell::default(), good, good]);
+        // Nothing was found, or nothing better: all is as it was.
+        assert!(!begin().end(&mut cells));
+        assert_eq!(cells, film);
+        cells[1] = cell(30.0, 1.3);
+        assert!(!begin().end(&mut cells));
+        assert_eq!(cells, film);
+        let better = cell(1.0, 0.3);
+        cells[1] = better;
+        assert!(begin().end(&mut cells));
+        assert_eq!(cells, [good, better, good, good]);
+    }
+}

@@ -257,3 +257,107 @@ impl Span {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::{looked, turned};
+    use crate::follow::look::Missing;
+
+    const MIDDLE: Vector3 = [0.0; 3];
+
+    /// Follows a span from frame 10 to one where each way sees the part turned by so many degrees; gives the order of frames, and the cells.
+    fn followed(last: usize, degs: [f64; 2]) -> (Vec<(usize, usize)>, Vec<Cell>) {
+        let ends = [
+            Anchor::found(10, turned(degs[0], 0.3)),
+            Anchor::found(last, turned(degs[1], 0.3)),
+        ];
+        let mut span = Span::between(&ends[0], &ends[1]).expect("frames between");
+        let mut order = Vec::new();
+        while let Some(frame) = span.wanted() {
+            let (which, next) = span.next().expect("wanted");
+            assert_eq!(next, frame);
+            order.push((which, frame));
+            span.saw(which, frame, looked(Ok(turned(degs[which], 0.3))), &MIDDLE);
+        }
+        let mut cells = vec![Cell::default(); last + 1];
+        span.write(&mut cells);
+        (order, cells)
+    }
+
+    fn turns(cells: &[Cell]) -> Vec<Option<f64>> {
+        let rotations = cells
+            .iter()
+            .map(|cell| cell.found().map(|found| found.pose.rotation));
+        let deg = |rotation| crate::pose::geodesic_deg(&rotation, &turned(0.0, 0.0).pose.rotation);
+        rotations.map(|one| one.map(deg).map(libm::round)).collect()
+    }
+
+    #[test]
+    fn two_ways_go_to_the_middle_where_they_meet_there() {
+        let (order, cells) = followed(15, [5.0, 5.5]);
+        assert_eq!(order, [(0, 11), (0, 12), (1, 14), (1, 13), (1, 12)]);
+        assert!(turns(&cells)[..11].iter().all(Option::is_none) && cells[15].looked.is_none());
+        // Where they met the second way has the word.
+        let poses = [11, 12, 13, 14].map(|frame| cells[frame].found().expect("seen").pose);
+        let [first, second] = [5.0, 5.5].map(|deg| turned(deg, 0.0).pose);
+        assert_eq!(poses, [first, second, second, second]);
+        assert_eq!(followed(12, [5.0, 5.0]).0, [(0, 11), (1, 11)]);
+    }
+
+    #[test]
+    fn two_ways_that_do_not_meet_go_over_all_frames_and_each_tells_the_other() {
+        let (order, cells) = followed(15, [5.0, 25.0]);
+        assert_eq!(
+            order,
+            [
+                (0, 11),
+                (0, 12),
+                (1, 14),
+                (1, 13),
+                (1, 12),
+                (0, 13),
+                (0, 14),
+                (1, 11)
+            ]
+        );
+        for (frame, cell) in cells.iter().enumerate() {
+            assert_eq!(
+                cell.other_way.is_some(),
+                (11..15).contains(&frame),
+                "{frame}"
+            );
+        }
+        let [a, b] = [10, 11].map(|frame| Anchor::found(frame, turned(0.0, 0.3)));
+        assert!(
+            Span::between(&a, &b).is_none()
+                && Span::between(&b, &a).is_none()
+                && Span::between(&a, &a).is_none()
+        );
+    }
+
+    #[test]
+    fn a_walk_goes_to_its_end_or_gives_up_and_leaves_what_a_person_gave() {
+        for (to, frames) in [(8, &[6, 7, 8][..]), (3, &[4, 3]), (5, &[])] {
+            let mut walk = Walk::new(&Anchor::found(5, turned(0.0, 0.3)), to);
+            let mut seen = Vec::new();
+            while let Some(frame) = walk.way.next(walk.to) {
+                walk.saw(frame, looked(Ok(turned(1.0, 0.3))), &MIDDLE);
+                seen.push(frame);
+            }
+            assert_eq!(seen, frames);
+            let mut cells = vec![Cell::default(); 8];
+            cells[4].fixed = true;
+            Task::Walk(Box::new(walk)).write(&mut cells);
+            let written = (0..8).filter(|&frame| cells[frame].looked.is_some());
+            assert!(written.eq((0..8).filter(|frame| frames.contains(frame) && *frame != 4)));
+        }
+        let mut lost = Walk::new(&Anchor::found(5, turned(0.0, 0.3)), 90);
+        let mut count = 0;
+        while let Some(frame) = lost.way.next(lost.to) {
+            lost.saw(frame, looked(Err(Missing::Hidden)), &MIDDLE);
+            count += 1;
+        }
+        assert_eq!(count, 12);
+    }
+}

@@ -94,3 +94,50 @@ impl Sought {
         -pose.transform(&self.middle)[2]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use KneeComponent::{Femur, Tibia};
+
+    #[test]
+    fn a_limb_leads_to_the_other_one_of_its_joint_alone() {
+        let of = |(role, is_limb)| Sought::new(role, is_limb, [0.0; 3]);
+        let all = [
+            (Some(Femur), true),
+            (Some(Tibia), true),
+            (Some(Femur), false),
+            (Some(Tibia), false),
+            (None, true),
+        ];
+        for (k, one) in all.into_iter().enumerate() {
+            for (j, other) in all.into_iter().enumerate() {
+                let leads = of(one).leads(&of(other));
+                assert_eq!(
+                    leads,
+                    matches!((k, j), (0, 1) | (1, 0)),
+                    "{one:?} {other:?}"
+                );
+            }
+            assert_eq!(of(one).is_tray(), one.0 == Some(Tibia));
+        }
+    }
+
+    #[test]
+    fn the_first_frames_that_are_known_stay_and_the_best_of_them_counts() {
+        let mut sought = Sought::new(Some(Femur), true, [1.0, 2.0, 3.0]);
+        assert!(sought.is_missing() && sought.best_score() == 0.0 && sought.known().is_empty());
+        let pose = Pose {
+            translation: [0.0, 0.0, -900.0],
+            ..Pose::IDENTITY
+        };
+        for (frame, score) in [(7, 0.4), (2, 0.6), (5, 0.5), (1, 0.9)] {
+            sought.know(KnownFrame::new(frame, pose, score));
+            assert!(!sought.is_missing());
+        }
+        assert!(sought.known().iter().map(|known| known.frame).eq([7, 2, 5]));
+        assert_eq!(sought.best_score(), 0.6);
+        // In front of the camera, at the middle of its box.
+        assert_eq!(sought.depth_mm(&pose), 897.0);
+    }
+}

@@ -228,3 +228,70 @@ fn what_leaves_less_is_gone_over_to_and_seen_anew() {
     let rounds = words.iter().filter(|&&word| word == "sides").count();
     assert!(rounds <= 1 + ROUNDS, "{words:?}");
 }
+
+#[test]
+fn a_frame_over_a_jump_is_looked_at_once_by_each_trail() {
+    let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+    let usual = |px: f64| super::super::trail::Usual::of(&turned(0.0, px));
+    let trail = |deg: f64| Trail::begin(3, &turned(deg, 0.2).pose, usual(0.2));
+    let mut looks = 0;
+    let mut over = |frame: usize, deg: f64| {
+        let seen = looked(Ok(turned(deg + frame as f64, 0.2)));
+        let mut see = || {
+            looks += 1;
+            Ok::<_, core::convert::Infallible>(seen)
+        };
+        let Ok(looked) = settling.over_jump((frame, &trail(deg)), &mut see);
+        assert_eq!(looked, seen);
+        looks
+    };
+    assert_eq!(
+        [over(4, 0.0), over(4, 0.0), over(5, 0.0), over(4, 9.0)],
+        [1, 1, 2, 3]
+    );
+    assert_eq!([over(5, 0.0), over(4, 9.0), over(5, 9.0)], [3, 3, 4]);
+}
+
+#[test]
+fn both_sides_are_those_of_the_very_frame() {
+    let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+    let sample = |frame: usize, rival| SideSample {
+        frame,
+        own: turned(frame as f64, 0.2),
+        rival,
+        other: None,
+        fixed: false,
+    };
+    for frame in [2, 5] {
+        settling.saw(sample(frame, Rival::Mirrored));
+    }
+    settling.saw(sample(3, Rival::Elsewhere));
+    let seen = |frame| settling.both_sides_of(frame).map(|sample| sample.frame);
+    assert_eq!([2, 3, 4, 5].map(seen), [Some(2), None, None, Some(5)]);
+}
+
+/// What was looked at once more and changed is settled anew, a few times at most.
+#[test]
+fn a_film_that_was_mended_is_settled_again_until_it_is_tired_of_that() {
+    let (mut settling, cells) = (Settling::new([0.0; 3], 0..FRAMES), film());
+    let look = |misfit_px: f64| SecondLook {
+        frame: 4,
+        own: turned(4.0, misfit_px),
+        expected: turned(4.0, 0.2).pose,
+        usual: super::super::trail::Usual::of(&turned(4.0, 0.2)),
+    };
+    let times = settling.mendings;
+    assert!(times > 0);
+    settling.looked_again = vec![look(0.2)];
+    assert!(
+        matches!(settling.after_mending(&cells), Phase::Over),
+        "as it was"
+    );
+    for left in (0..times).rev() {
+        settling.looked_again = vec![look(0.2), look(0.9)];
+        assert!(matches!(settling.after_mending(&cells), Phase::Sides));
+        assert!(settling.mendings == left && settling.looked_again.is_empty());
+    }
+    settling.looked_again = vec![look(0.9)];
+    assert!(matches!(settling.after_mending(&cells), Phase::Over));
+}

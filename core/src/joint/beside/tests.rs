@@ -1,6 +1,7 @@
 use super::*;
-use crate::joint::fake::{Normal, femur, moved, pose, tray};
+use crate::joint::fake::{Normal, covariance, factor, femur, moved, pose, tray};
 use crate::joint::kinematics::joint_axes;
+use proptest::prelude::*;
 use std::format;
 use std::vec;
 use std::vec::Vec;
@@ -202,4 +203,54 @@ fn a_tray_farther_off_than_it_is_wide_is_no_mirrored_one() {
         far.contains("295 mm beside") && far.contains("another unit") && !far.contains("flip"),
         "{far}"
     );
+}
+
+properties! {
+    /// The naive way takes the least and the greatest off until no more than two are left.
+    #[test]
+    fn the_median_lies_midway_between_what_is_left_in_the_middle(
+        apart in proptest::collection::vec(proptest::option::weighted(0.8, -30i8..30), 0..9),
+    ) {
+        let apart: Vec<f64> = apart.iter().map(|mm| mm.map_or(f64::NAN, f64::from)).collect();
+        let mut left: Vec<f64> = apart.iter().copied().filter(|mm| !mm.is_nan()).collect();
+        let is_film = left.len() > 1;
+        while left.len() > 2 {
+            let least = (0..left.len()).min_by(|&a, &b| left[a].total_cmp(&left[b])).expect("some");
+            left.swap_remove(least);
+            let most = (0..left.len()).max_by(|&a, &b| left[a].total_cmp(&left[b])).expect("some");
+            left.swap_remove(most);
+        }
+        let midway = is_film.then(|| left.iter().sum::<f64>() / left.len() as f64);
+        prop_assert_eq!(median(&apart, &mut vec![0.0; apart.len()]), midway);
+    }
+}
+
+/// What is known of a pose is its depth alone, the last of six, and a variance below 0 is none.
+#[test]
+fn a_depth_is_known_to_the_root_of_its_variance() {
+    let sd_mm = |variance: f64| {
+        let mut covariance = covariance(&factor(3.0));
+        covariance.matrix[5][5] = variance;
+        Lying::new(Pose::IDENTITY, Some(&covariance)).depth_sd_mm
+    };
+    assert_eq!([6.25, 0.0, -1.0].map(sd_mm), [2.5, 0.0, 0.0]);
+    assert_eq!(Lying::new(Pose::IDENTITY, None).depth_sd_mm, 0.0);
+}
+
+/// Along the view nothing but depth tells how far the parts lie apart; both errors add up as independent ones do.
+#[test]
+fn both_depths_together_must_be_known_to_what_a_knee_allows() {
+    let (middles, most) = middles();
+    let (femur, tibia) = knee([30.0, 0.0, 0.0], 5.0);
+    let known = |femur_mm: f64, tibia_mm: f64| {
+        let lying = |pose: Pose, depth_sd_mm: f64| Lying { pose, depth_sd_mm };
+        let mm = middles.known_mm(
+            &lying(femur, femur_mm * most),
+            &lying(tibia, tibia_mm * most),
+        );
+        mm.is_finite().then_some(mm)
+    };
+    assert_eq!(known(0.59, 0.8), Some(middles.apart_mm(&femur, &tibia)));
+    assert_eq!([known(0.61, 0.8), known(0.8, 0.61)], [None; 2]);
+    assert!(known(0.99, 0.0).is_some() && known(0.0, 1.01).is_none());
 }

@@ -110,3 +110,61 @@ fn probabilities_are_those_of_a_table_of_the_normal_distribution() {
     assert_eq!(probability_beyond(0.8, 0.0, 0.7), 1.0);
     assert_eq!(probability_beyond(0.5, 0.0, 0.7), 0.0);
 }
+
+properties! {
+    /// What lies below a height, and what lies above it, which is below it in the triangle upside down, are the triangle together. Small
+    /// whole numbers put corners and sides at the very height as well.
+    #[test]
+    fn a_cap_and_the_rest_of_a_triangle_are_the_triangle(
+        corners in proptest::array::uniform3(proptest::array::uniform3(-3i8..4)), below in -3i8..4,
+    ) {
+        let corners = corners.map(|corner| corner.map(f64::from));
+        let (doubled, below) = (norm(&cross(&subtract(&corners[1], &corners[0]), &subtract(&corners[2], &corners[0]))), f64::from(below));
+        // What lies in the very plane is neither below nor above it.
+        prop_assume!(corners.iter().any(|corner| corner[1] != below));
+        let turned = |[x, y, z]: Vector3| [x, -y, z];
+        let (mut low, mut high) = (Cap::default(), Cap::default());
+        low.add(&corners, below);
+        high.add(&corners.map(turned), -below);
+        prop_assert!((low.area + high.area - doubled).abs() < 1e-9, "{} {} {doubled}", low.area, high.area);
+        let sum = corners.iter().fold([0.0; 3], |sum, corner| add(&sum, corner));
+        for (k, sum) in sum.iter().enumerate() {
+            let both = low.moment[k] + turned(high.moment)[k];
+            prop_assert!((both - doubled * sum / 3.0).abs() < 1e-9, "{k}: {both}");
+        }
+        // Similar triangles: the part below the first corner to be cut off alone grows as the square of its height.
+        let heights = corners.map(|corner| corner[1]);
+        let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let middle = heights.iter().sum::<f64>() - least - heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if least < below && below <= middle {
+            let others = heights.iter().copied().filter(|&height| height > least);
+            let parts = others.map(|height| (below - least) / (height - least));
+            let part: f64 = parts.product();
+            prop_assert!((low.area - part * doubled).abs() < 1e-9, "{} {part}", low.area);
+        }
+    }
+}
+
+/// A file's origin may lie beside the component, and a condyle below the plate of a tray that sank.
+#[test]
+fn halves_are_those_of_the_component_and_heights_may_be_below_the_plate() {
+    let beside = pose([7.0, -3.0, 100.0], [0.0; 3]);
+    let (parts, tray) = (femur().in_axes(&beside), tray());
+    let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+    let above = Above::new(parts.mesh(), &Pose::IDENTITY, plate);
+    for height in [-15.0, 0.5, 12.0] {
+        let at = pose([0.0, height + RADIUS + 8.0, 1.5], [0.0; 3]);
+        let found = above.lowest_points(&at, all(&above));
+        for (point, medial_mm) in [
+            (found.medial, 101.5 + ACROSS),
+            (found.lateral, 101.5 - ACROSS),
+        ] {
+            assert!((point.medial_mm - medial_mm).abs() < 0.1, "{point:?}");
+            assert!((point.anterior_mm - 9.0).abs() < 0.1, "{point:?}");
+            assert!((point.height_mm - height).abs() < 0.06, "{point:?}");
+        }
+        let mut memory = std::vec![0; above.memory_needed()];
+        let near = above.near(&at, &mut memory).expect("room");
+        assert_eq!(above.lowest_points(&at, near.iter().copied()), found);
+    }
+}

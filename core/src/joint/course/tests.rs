@@ -1,4 +1,5 @@
 use super::*;
+use proptest::prelude::*;
 use std::vec::Vec;
 
 fn phases_of(flexion: &[f64]) -> Vec<(usize, usize, bool)> {
@@ -103,5 +104,77 @@ fn a_cycle_has_101_points_between_frames_and_none_beyond_them() {
         let at = 10.0 + 0.22 * k as f64;
         let missing = (at > 14.0 && at < 16.0) || at > 30.0;
         assert_eq!(point.is_nan(), missing, "{at}");
+    }
+}
+
+/// The limits themselves: what goes back by as much as a reversal has not turned, and what goes on by as much as a jump is none.
+#[test]
+fn a_phase_turns_beyond_a_reversal_and_breaks_beyond_a_jump() {
+    let less = |limit: f64| limit * (1.0 - f64::EPSILON);
+    let more = |limit: f64| limit * (1.0 + f64::EPSILON);
+    for sign in [1.0, -1.0] {
+        let phases = |flexion: &[f64]| {
+            let flexion: Vec<f64> = flexion.iter().map(|deg| sign * deg).collect();
+            let phases = phases_of(&flexion);
+            let up = |rises: bool| rises == (sign > 0.0);
+            let each = phases
+                .iter()
+                .map(|&(first, last, rises)| (first, last, up(rises)));
+            each.collect::<Vec<_>>()
+        };
+        for back in [less(REVERSAL_DEG), REVERSAL_DEG] {
+            assert_eq!(phases(&[-8.0, 0.0, -back, 8.0]), [(0, 3, true)]);
+        }
+        assert_eq!(
+            phases(&[-8.0, 0.0, -more(REVERSAL_DEG), 8.0]),
+            [(0, 1, true), (1, 2, false), (2, 3, true)]
+        );
+        // What has moved by no more than a reversal before it goes the other way has not risen.
+        assert_eq!(phases(&[0.0, REVERSAL_DEG, -8.0]), [(0, 2, false)]);
+        assert_eq!(
+            phases(&[0.0, more(REVERSAL_DEG), -8.0]),
+            [(0, 1, true), (1, 2, false)]
+        );
+        for on in [less(JUMP_DEG), JUMP_DEG] {
+            assert_eq!(phases(&[-1.0, 0.0, on]), [(0, 2, true)]);
+        }
+        assert_eq!(phases(&[-1.0, 0.0, more(JUMP_DEG)]), [(0, 1, true)]);
+        // Of frames at the very turning point the first ends the phase.
+        assert_eq!(
+            phases(&[0.0, 9.0, 9.0, 0.0, 0.0, 9.0]),
+            [(0, 1, true), (1, 3, false), (3, 5, true)]
+        );
+    }
+}
+
+properties! {
+    /// Backwards, or with the sign turned, a film of one way has one phase of the other way.
+    #[test]
+    fn all_that_rises_is_one_phase_and_falls_backwards(
+        steps in proptest::collection::vec(0.0..JUMP_DEG, 1..9), start in -60.0..60.0f64,
+    ) {
+        let mut flexion = std::vec![start];
+        for step in &steps {
+            flexion.push(flexion[flexion.len() - 1] + step);
+        }
+        let last = steps.len();
+        prop_assume!(flexion[last] > flexion[0]);
+        prop_assert_eq!(phases_of(&flexion), [(0, last, true)]);
+        flexion.reverse();
+        prop_assert_eq!(phases_of(&flexion), [(0, last, false)]);
+    }
+}
+
+#[test]
+fn before_the_first_frame_nothing_is_known_and_at_it_all() {
+    let points = cycle(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], 0.0, 40.0);
+    for (k, point) in points.iter().enumerate() {
+        let at = 0.4 * k as f64;
+        let is_known = (25..=75).contains(&k);
+        assert_eq!(!point.is_nan(), is_known, "{at}");
+        assert!(
+            !is_known || (point - at / 10.0).abs() < 1e-12,
+            "{at}: {point}"
+        );
     }
 }

@@ -82,6 +82,59 @@ fn no_place_nearby_is_missed_less() {
     }
 }
 
+/// How far a line misses a place, in units of the error there.
+fn miss(CondyleLine { medial, lateral }: &CondyleLine, place: [f64; 2]) -> f64 {
+    let along = [lateral[0] - medial[0], lateral[1] - medial[1]];
+    let from = [place[0] - medial[0], place[1] - medial[1]];
+    let squared = along[0] * along[0] + along[1] * along[1];
+    let t = (along[0] * from[0] + along[1] * from[1]) / squared;
+    let across = along[0] * from[1] - along[1] * from[0];
+    across / sqrt(squared * ((1.0 - t) * (1.0 - t) + t * t))
+}
+
+/// Naive oracle: how fast the sum of squared misses grows in each direction, by differences. The place is known worst where it grows least,
+/// and its errors are those of the inverse of that growth.
+#[test]
+fn errors_and_condition_are_those_of_how_fast_the_misses_grow() {
+    for (at, range) in [([-6.0, 17.0], 20.0), ([20.0, -3.0], 50.0)] {
+        let lines = lines(at, range, 25, 0.02, &mut Normal(11));
+        let found = pivot(lines.iter().copied()).expect("a pivot");
+        let place = [found.anterior_mm, found.medial_mm];
+        let missed = |place: [f64; 2]| lines.iter().map(move |line| miss(line, place));
+        let step = 1e-4;
+        // Half of the second derivative along a direction: the squares of the slopes.
+        let growth = |[x, y]: [f64; 2]| -> f64 {
+            let [here, there] =
+                [-step, step].map(|by| missed([place[0] + by * x, place[1] + by * y]));
+            let slopes = here
+                .zip(there)
+                .map(|(here, there)| (there - here) / (2.0 * step));
+            slopes.map(|slope| slope * slope).sum()
+        };
+        let directions = (0..7200).map(|k| {
+            let (sin, cos) = sin_cos(core::f64::consts::PI * f64::from(k) / 7200.0);
+            growth([cos, sin])
+        });
+        let (least, most) = directions
+            .fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), growth| {
+                (least.min(growth), most.max(growth))
+            });
+        let condition = sqrt(most / least);
+        assert!(
+            (found.condition / condition - 1.0).abs() < 1e-3,
+            "{} {condition}",
+            found.condition
+        );
+        let (a, d) = (growth([1.0, 0.0]), growth([0.0, 1.0]));
+        let b = (growth([1.0, 1.0]) - a - d) / 2.0;
+        let variance = missed(place).map(|miss| miss * miss).sum::<f64>() / 23.0;
+        let deviations = [d, a].map(|other| sqrt(variance * other / (a * d - b * b)));
+        for (found, wanted) in found.deviation_mm.iter().zip(deviations) {
+            assert!((found / wanted - 1.0).abs() < 1e-3, "{found} {wanted}");
+        }
+    }
+}
+
 /// The stated error holds the known pivot in 68 +- 8 percent of films, across and along.
 #[test]
 fn a_known_pivot_lies_within_its_stated_error() {
@@ -214,4 +267,23 @@ fn little_rotation_is_called_ill_conditioned_and_none_has_no_centre() {
     };
     let same = pivot(core::iter::repeat_n(parallel, 5));
     assert!(same.is_none_or(|found| found.is_ill_conditioned()));
+}
+
+/// What errors of the lowest points add to how directions scatter is taken off: squared, the range is right in the mean.
+#[test]
+fn the_range_of_directions_is_right_on_average_however_noisy_lines_are() {
+    let mut random = Normal(21);
+    for (range, noise_mm) in [(8.0, 0.2), (8.0, 0.8)] {
+        let films = 200;
+        let squares = (0..films).map(|_| {
+            let lines = lines([-6.0, 17.0], range, 40, noise_mm, &mut random);
+            let found = pivot(lines.iter().copied()).expect("a pivot");
+            found.rotation_deg * found.rotation_deg
+        });
+        let mean = squares.sum::<f64>() / f64::from(films);
+        assert!(
+            (sqrt(mean) / range - 1.0).abs() < 0.03,
+            "{noise_mm}: {mean}"
+        );
+    }
 }

@@ -128,3 +128,44 @@ fn the_relative_pose_is_that_of_the_joint_and_knows_no_covariance_by_itself() {
     let still = relative.stepped(&[0.0; 6]);
     assert!((still.translation[0] - relative.tibia_from_femur.translation[0]).abs() < 1e-12);
 }
+
+/// To first order a number moves with an error of the film as it does where the pose goes that step.
+#[test]
+fn numbers_move_with_an_error_of_the_film_as_the_pose_does() {
+    let (femur_middle, tibia_middle) = ([3.0, 12.0, -2.0], [1.0, -20.0, 4.0]);
+    let femur = placed([4.0, -17.0, -1083.0], [8.0, 5.0, -1.0], femur_middle, 3.0);
+    let tibia = placed(
+        [-28.0, -18.0, -1085.0],
+        [-54.0, 2.0, -9.0],
+        tibia_middle,
+        5.0,
+    );
+    let none = [0.0; 6];
+    let relative = Relative::new(
+        &femur.on_film([[0.001, -0.002, 0.0, 0.02, 0.1, 0.3], none]),
+        &tibia.on_film([[0.0, 0.002, 0.001, 0.0, -0.1, 0.2], none]),
+        KnownTo {
+            distance: 0.005,
+            size: 0.0003,
+        },
+    );
+    let carried = relative.carry(by_relative).expect("covariances");
+    let here = by_relative(&relative.tibia_from_femur);
+    for (step, numbers) in relative.shared.iter().zip(carried.shared) {
+        let there = by_relative(&relative.stepped(step));
+        for k in 0..6 {
+            let moved = there[k] - here[k];
+            assert!(
+                (moved - numbers[k]).abs() < 0.002,
+                "{k}: {moved} {}",
+                numbers[k]
+            );
+        }
+    }
+    let most = |step: usize| {
+        carried.shared[step]
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
+    assert!([0, 3, 4].iter().all(|&step| most(step) > 0.1) && most(1) == 0.0);
+}
