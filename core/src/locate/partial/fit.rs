@@ -213,6 +213,7 @@ mod tests {
     use crate::camera::Camera;
     use crate::image::contour::{Outline, Point};
     use crate::image::mask::{Mask, MaskMut, words_needed};
+    use proptest::prelude::*;
 
     const SIDE: usize = 256;
     const UNITS: Units = Units {
@@ -344,6 +345,74 @@ mod tests {
                 };
                 assert_eq!(known.improve(view, &away, 16.0), None);
             });
+        }
+    }
+
+    #[test]
+    fn a_place_is_as_far_off_as_along_the_normal_unless_that_leads_past_an_end() {
+        let hidden = hidden(SIDE);
+        let hidden = Mask::new(&hidden, SIDE, SIDE).expect("valid");
+        with_known(&hidden, |known, _| {
+            assert_eq!(known.past_end, 8.0);
+            for along in [-3.0, 0.0, 0.5, 12.0] {
+                for (across, is_past) in [(0.0, false), (7.999, false), (8.001, true), (30.0, true)]
+                {
+                    let distance = libm::hypot(along, across);
+                    let pair = Pair {
+                        arm: [0.0; 2],
+                        normal: [0.0, 1.0],
+                        along,
+                        distance,
+                    };
+                    let expected = if is_past { distance } else { along.abs() };
+                    assert_eq!(known.distance(&pair), expected, "{along} {across}");
+                }
+            }
+        });
+    }
+
+    properties! {
+        /// A step that is too large is cut, each of growth and turn by itself.
+        #[test]
+        fn a_similarity_grows_and_turns_and_shifts_by_what_it_is_moved(
+            factor in (0.2..3.0f64, -1.5..1.5f64),
+            offset in proptest::array::uniform2(-300.0..300.0f64),
+            shift in proptest::array::uniform2(-20.0..20.0f64),
+            grow in -0.5..0.5f64,
+            turn in -0.8..0.8f64,
+        ) {
+            let before = Similarity { factor: [factor.0, factor.1], offset };
+            let after = moved(&before, [shift[0], shift[1], grow, turn]);
+            let cut = |value: f64, most: f64| value.max(-most).min(most);
+            let growth = after.scale() / before.scale();
+            prop_assert!((growth - 1.0 - cut(grow, 0.2)).abs() < 1e-12);
+            let turned = crate::math::wrap(after.angle() - before.angle(), core::f64::consts::TAU);
+            prop_assert!((turned - cut(turn, 0.3)).abs() < 1e-12);
+            prop_assert_eq!(after.offset, [offset[0] + shift[0], offset[1] + shift[1]]);
+        }
+
+        /// How fast a point moves along a normal, by moving it a little both ways.
+        #[test]
+        fn slopes_are_those_of_what_is_moved(
+            factor in (0.2..3.0f64, -1.5..1.5f64),
+            point in proptest::array::uniform2(-100.0..100.0f64),
+            direction in -4.0..4.0f64,
+        ) {
+            let similarity = Similarity { factor: [factor.0, factor.1], offset: [5.0, -7.0] };
+            let (sin, cos) = libm::sincos(direction);
+            let normal = [cos, sin];
+            let pair = Pair { arm: times(similarity.factor, point), normal, along: 0.0, distance: 0.0 };
+            for (k, slope) in pair.slope().into_iter().enumerate() {
+                let along = |step: f64| {
+                    let mut steps = [0.0; 4];
+                    steps[k] = step;
+                    let moved = moved(&similarity, steps);
+                    let arm = times(moved.factor, point);
+                    (0..2).map(|k| (arm[k] + moved.offset[k]) * normal[k]).sum::<f64>()
+                };
+                let difference = (along(1e-4) - along(-1e-4)) / 2e-4;
+                prop_assert!((difference - slope).abs() < 1e-5, "{} {} {}", k, difference, slope);
+            }
         }
     }
 }
