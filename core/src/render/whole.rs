@@ -230,6 +230,33 @@ mod tests {
             }
         }
 
+        /// Of vertices far from their own origin fewer binary places are left, and that is what errs most.
+        #[test]
+        fn an_image_of_what_lies_far_from_its_origin_is_that_of_doubles_or_none(
+            vertex in proptest::array::uniform3(-1.0..1.0f64), radius in 0.5..4.0f64,
+            centre in proptest::array::uniform3(-6.0..6.0f64),
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            place in proptest::array::uniform2(-0.3..0.3f64), distance in 0.1..5.0f64,
+            focal in 0.0..8.0f64,
+        ) {
+            let radius = libm::exp(radius);
+            let centre = centre.map(|x| libm::copysign(libm::exp(1.5 * x.abs()), x));
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let z_mm = -radius * (3.1 + libm::exp(distance - 3.0));
+            let mut pose = Pose::from(EulerPose { z_rot_deg, x_rot_deg, y_rot_deg, ..EulerPose::default() });
+            let from_origin = pose.transform(&centre);
+            let middle = [place[0] * z_mm, place[1] * z_mm, z_mm];
+            pose.translation = core::array::from_fn(|k| middle[k] - from_origin[k]);
+            let focal = [libm::exp(focal), 1.1 * libm::exp(focal)];
+            let camera = Camera::new(512, 512, focal, [250.3, -90.7]).expect("valid");
+            let vertex = core::array::from_fn(|k| (centre[k] + 0.55 * radius * vertex[k]) as f32);
+            let bounds = Bounds { centre, radius };
+            let whole = WholeImages::new(&camera, &pose, &bounds, &Reach::of(&bounds, &pose));
+            if let Some(image) = whole.and_then(|whole| whole.of(&vertex)) {
+                prop_assert_eq!((image, true), image_of(&camera, &pose, &vertex));
+            }
+        }
+
         #[test]
         fn a_reciprocal_is_within_five_parts(x in 1u32 << 31..=u32::MAX) {
             let exact = 2f64.powi(62) / f64::from(x);
