@@ -272,8 +272,15 @@ mod tests {
 
     /// Calls `look` with the shape known but for `hidden`, and its whole outline as the view.
     fn with_known(hidden: &Mask<'_>, look: impl Fn(&Known<'_>, &OutlinePoints<'_>)) {
-        let words = words();
-        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        with_known_of(&words(), hidden, look);
+    }
+
+    fn with_known_of(
+        words: &[u32],
+        hidden: &Mask<'_>,
+        look: impl Fn(&Known<'_>, &OutlinePoints<'_>),
+    ) {
+        let mask = Mask::new(words, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::new(&mask, hidden).expect("one size");
         let (mut own, mut theirs) = (
             [OutlinePoint::default(); 500],
@@ -414,5 +421,44 @@ mod tests {
                 prop_assert!((difference - slope).abs() < 1e-5, "{} {} {}", k, difference, slope);
             }
         }
+    }
+
+    /// Of a straight edge all samples of a view that lies beside it are as far off: what of it counts as wrong leaves as much of
+    /// the known outline uncovered.
+    #[test]
+    fn beside_a_straight_edge_disagreement_is_twice_the_square_of_the_distance() {
+        let hidden_words = hidden(SIDE);
+        let nothing = Mask::new(&hidden_words, SIDE, SIDE).expect("valid");
+        // What is hidden from a column on is a mask that is set there.
+        let half = hidden(128);
+        with_known_of(&half, &nothing, |known, view| {
+            let off = |shift: [f64; 2], every: usize| {
+                let offset = shift;
+                let moved = Similarity { offset, ..NOTHING };
+                known.disagreement(view, &moved, 5.0, every, f64::INFINITY)
+            };
+            for every in [1, 2] {
+                for distance in [0.0, 1.0, -2.0, 3.5, -4.9] {
+                    let expected = 2.0 * distance * distance / 25.0;
+                    let found = off([distance, 0.0], every);
+                    assert!((found - expected).abs() < 0.06, "{distance}: {found}");
+                }
+                // Farther than counts, and where nothing is near.
+                for distance in [5.5, -11.0, 40.0] {
+                    let found = off([distance, 0.0], every);
+                    assert!((found - 2.0).abs() < 0.06, "{distance}: {found}");
+                }
+                // A quarter of it beyond the frame tells nothing, and leaves a quarter uncovered.
+                let found = off([0.0, 64.0], every);
+                assert!((found - 0.25).abs() < 0.06, "{found}");
+            }
+            // Turned by half it runs along the edge, its normals the other way.
+            let about = Similarity {
+                factor: [-1.0, 0.0],
+                offset: [0.0; 2],
+            };
+            let found = known.disagreement(view, &about, 5.0, 1, f64::INFINITY);
+            assert!((found - 2.0).abs() < 0.06, "{found}");
+        });
     }
 }
