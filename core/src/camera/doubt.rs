@@ -210,4 +210,27 @@ mod tests {
         one((1024, 1024), [3212.0, 2900.0], middle, "not square");
         assert_eq!(told((1024, 1024), [1.2, 1.0], [0.5; 2]).len(), 3);
     }
+
+    /// Limits themselves are usual; numbers beside them are so chosen that quotients are exact.
+    #[test]
+    fn cameras_are_doubted_beyond_limits_and_not_at_them() {
+        let told = |size, focal, point| told(size, focal, point).len();
+        let usual = ((1000, 1000), [3000.0; 2], [500.0; 2]);
+        assert_eq!(told(usual.0, usual.1, usual.2), 0);
+        for (at, doubts) in [(300.0, 0), (299.9, 1), (700.0, 0), (700.1, 1)] {
+            assert_eq!(told(usual.0, usual.1, [at, 500.0]), doubts, "{at}");
+            assert_eq!(told(usual.0, usual.1, [500.0, at]), doubts, "{at}");
+        }
+        // Off in both is off once.
+        assert_eq!(told(usual.0, usual.1, [200.0, 900.0]), 1);
+        for (focal, doubts) in [(1800.0, 0), (1799.9, 1), (10_000.0, 0), (10_000.1, 1)] {
+            assert_eq!(told(usual.0, [focal; 2], usual.2), doubts, "{focal}");
+            // In sides of the longer one.
+            assert_eq!(told((1000, 800), [focal; 2], [500.0, 400.0]), doubts);
+            assert_eq!(told((800, 1000), [focal; 2], [400.0, 500.0]), doubts);
+        }
+        for (other, doubts) in [(2860.0, 0), (2850.0, 1), (3155.0, 0), (3165.0, 1)] {
+            assert_eq!(told(usual.0, [3000.0, other], usual.2), doubts, "{other}");
+        }
+    }
 }

@@ -271,4 +271,67 @@ mod tests {
         let matrix = Camera::new(800, 600, camera.focal(), camera.principal_point());
         assert_eq!(matrix.expect("valid").behind_detector(1e9), 0.0);
     }
+
+    /// A point is seen at the same place of the film, in pixels of each.
+    #[test]
+    fn parts_and_finer_frames_of_a_camera_see_the_same() {
+        let camera = Camera::new(800, 600, [2000.0, 1600.0], [390.5, 310.25]).expect("valid");
+        assert_eq!(camera.aspect(), 1.25);
+        let crop = Crop::around(100..164, 50..114, 0, [800, 600]).expect("valid");
+        let part = camera.cropped(&crop).expect("within");
+        let finer = camera.supersampled(4).expect("possible");
+        assert_eq!([part.width(), part.height()], [64, 64]);
+        assert_eq!([finer.width(), finer.height()], [3200, 2400]);
+        for point in [[3.0, -8.0, -900.0], [-40.0, 25.0, -1300.0]] {
+            let see = |camera: &Camera| camera.project(&point).expect("in front");
+            let (whole, part, finer) = (see(&camera), see(&part), see(&finer));
+            assert!((part.column + 100.0 - whole.column).abs() < 1e-9);
+            assert!((part.row + 50.0 - whole.row).abs() < 1e-9);
+            assert!((finer.column - 4.0 * whole.column).abs() < 1e-9);
+            assert!((finer.row - 4.0 * whole.row).abs() < 1e-9);
+        }
+        let other = Crop::around(100..164, 50..114, 0, [800, 601]).expect("valid");
+        assert!(matches!(
+            camera.cropped(&other),
+            Err(CameraError::Value {
+                name: "frame height",
+                value: 600.0,
+                ..
+            })
+        ));
+        assert!(camera.supersampled(21).is_err() && camera.supersampled(0).is_err());
+    }
+
+    #[test]
+    fn limits_of_a_camera_are_possible_and_what_is_beyond_them_is_not() {
+        type Make = fn(f64) -> Result<Camera, CameraError>;
+        let makes: [(Make, f64, f64); 5] = [
+            (|x| Camera::new(9, 9, [x, x], [4.0; 2]), 1.0, 1e6),
+            (
+                |x| Camera::new(9, 9, [1000.0 * x, 1000.0], [4.0; 2]),
+                0.1,
+                10.0,
+            ),
+            (|x| Camera::new(9, 9, [1e3; 2], [x, 4.0]), -1e5, 1e5),
+            (|x| Camera::new(9, 9, [1e3; 2], [4.0, x]), -1e5, 1e5),
+            (
+                |x| Camera::from_principal_distance(9, 9, 1000.0 * x, x, [0.0; 2]),
+                f64::MIN_POSITIVE,
+                100.0,
+            ),
+        ];
+        for (number, (make, least, most)) in makes.into_iter().enumerate() {
+            assert!(make(least).is_ok() && make(most).is_ok(), "{number}");
+            for beyond in [least.next_down().next_down(), most * 1.000_001, f64::NAN] {
+                // Below the least positive number there are others that are no distances.
+                assert!(
+                    make(beyond).is_err() || number == 4 && beyond > 0.0,
+                    "{number} {beyond}"
+                );
+            }
+        }
+        assert!(Camera::new(16_384, 1, [1e3; 2], [4.0; 2]).is_ok());
+        assert!(Camera::new(16_385, 1, [1e3; 2], [4.0; 2]).is_err());
+        assert!(Camera::new(1, 16_385, [1e3; 2], [4.0; 2]).is_err());
+    }
 }

@@ -236,4 +236,24 @@ mod tests {
         let square = points([(1.0, 1.0), (3.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0)]);
         assert!(Outline::new(&square, 8, 8).is_ok());
     }
+
+    #[test]
+    fn a_small_outline_far_from_the_corner_loses_no_digits() {
+        // As short as numbers there can tell: differences are exact, sums and their products are not.
+        let side = libm::ldexp(1.0, -40);
+        let [column, row] = [4000.0, 3000.5];
+        let triangle = points([
+            (column, row),
+            (column + 3.0 * side, row),
+            (column + side, row + 2.0 * side),
+        ]);
+        for turned in [false, true] {
+            let mut triangle = triangle;
+            if turned {
+                triangle.reverse();
+            }
+            let outline = Outline::new(&triangle, 4096, 4096).expect("valid");
+            assert_eq!(outline.area(), 3.0 * side * side);
+        }
+    }
 }

@@ -316,5 +316,60 @@ mod tests {
             }
             prop_assert_eq!(first_crossing(count, |number| points[number]), naive(&points));
         }
+
+        /// Where they do nobody looks for a crossing among them.
+        #[test]
+        fn sides_go_on_where_no_step_leads_back(
+            steps in proptest::collection::vec((0..4u32, 0..4u32), 3..30),
+            mirrored in proptest::array::uniform2(any::<bool>()),
+            back in proptest::option::of((any::<prop::sample::Index>(), 0..2usize)),
+        ) {
+            let mut at = [200i32; 2];
+            let mut points = Vec::from([at]);
+            let mut stands = false;
+            // Whether a step leads back on an axis on which another leads ahead.
+            let (mut ahead, mut behind) = ([false; 2], [false; 2]);
+            let turned = back.map(|(step, axis)| (step.index(steps.len()), axis));
+            for (number, &(column, row)) in steps.iter().enumerate() {
+                let mut step = [column, row].map(|along| along as i32);
+                if let Some((_, axis)) = turned.filter(|(turned, _)| *turned == number) {
+                    step[axis] = -step[axis];
+                }
+                stands |= step == [0; 2];
+                for axis in 0..2 {
+                    ahead[axis] |= step[axis] > 0;
+                    behind[axis] |= step[axis] < 0;
+                    at[axis] += step[axis];
+                }
+                points.push(at);
+            }
+            let expected = !stands && (0..2).all(|axis| !(ahead[axis] && behind[axis]));
+            let place = |number: usize| {
+                let at: [i32; 2] = core::array::from_fn(|axis| {
+                    let along = points[number % points.len()][axis];
+                    if mirrored[axis] { 1000 - along } else { along }
+                });
+                Point::new(f64::from(at[0]), f64::from(at[1]))
+            };
+            // The last side closes the line, and is not asked for.
+            let line = Line { count: points.len(), at: &place };
+            prop_assert_eq!(line.goes_on(0..steps.len()), expected);
+        }
+
+        #[test]
+        fn boxes_meet_where_they_have_a_place_in_common(
+            ends in proptest::array::uniform4((-5..5i32, -5..5i32)),
+        ) {
+            let [a, b, c, d] = ends.map(|(column, row)| Point::new(column.into(), row.into()));
+            // Ends are whole numbers, so that boxes that meet have a whole place in common.
+            let holds = |one: i32, other: i32, place: i32| (one.min(other)..=one.max(other)).contains(&place);
+            let meet = |of: fn((i32, i32)) -> i32| {
+                let [a, b, c, d] = ends.map(of);
+                (-5..5).any(|place| holds(a, b, place) && holds(c, d, place))
+            };
+            let expected = meet(|(column, _)| column) && meet(|(_, row)| row);
+            prop_assert_eq!(boxes_meet((a, b), (c, d)), expected);
+            prop_assert_eq!(Extent::of((a, b)).meets(&Extent::of((c, d))), expected);
+        }
     }
 }

@@ -122,6 +122,7 @@ fn nearest(number: i128) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::mask::{MaskMut, words_needed};
     use proptest::prelude::*;
 
     properties! {
@@ -130,6 +131,50 @@ mod tests {
             for number in [number >> shift, (number >> shift << below).wrapping_add(off), off] {
                 prop_assert_eq!(nearest(number).to_bits(), (number as f64).to_bits(), "{}", number);
             }
+        }
+
+        /// By their pixels one by one, of a mask and of the same one further right and down.
+        #[test]
+        fn moments_are_those_of_the_pixels(
+            pixels in proptest::collection::vec((0..70usize, 0..12usize), 1..60),
+            right in 0..200usize, down in 0..50usize,
+        ) {
+            let mut words = std::vec![0; words_needed(70, 12)];
+            let mut mask = MaskMut::new(&mut words, 70, 12).expect("fits");
+            pixels.iter().for_each(|&(column, row)| mask.set(column, row, true));
+            let mask = mask.into_mask();
+            let all = (0..70).flat_map(|column| (0..12).map(move |row| (column, row)));
+            let set: std::vec::Vec<[u64; 2]> = all
+                .filter(|&(column, row)| mask.get(column, row))
+                .map(|(column, row)| [column as u64, row as u64])
+                .collect();
+            let naive = |right: u64, down: u64| {
+                set.iter().map(|[x, y]| [x + right, y + down]).fold(Moments::default(), |sum, [x, y]| Moments {
+                    area: sum.area + 1,
+                    column: sum.column + x,
+                    row: sum.row + y,
+                    column_column: sum.column_column + x * x,
+                    column_row: sum.column_row + x * y,
+                    row_row: sum.row_row + y * y,
+                })
+            };
+            let moments = mask.moments();
+            prop_assert_eq!(moments, naive(0, 0));
+            let moved = moments.moved(right, down);
+            prop_assert_eq!(moved, naive(right as u64, down as u64));
+            // Middles of pixels, and squares about their mean, wherever they lie.
+            let count = set.len() as f64;
+            let mean = [0, 1].map(|k| set.iter().map(|at| at[k] as f64 + 0.5).sum::<f64>() / count);
+            let about = |a: usize, b: usize| {
+                let products = set.iter().map(|at| (at[a] as f64 + 0.5 - mean[a]) * (at[b] as f64 + 0.5 - mean[b]));
+                products.sum::<f64>() / count
+            };
+            let Point { column, row } = moments.centroid();
+            prop_assert!((column - mean[0]).abs() < 1e-9 && (row - mean[1]).abs() < 1e-9);
+            let expected = [about(0, 0), about(0, 1), about(1, 1)];
+            let found = moments.covariance();
+            prop_assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + b.abs())));
+            prop_assert_eq!(moved.covariance(), found);
         }
 
         #[test]

@@ -186,4 +186,76 @@ mod tests {
             None
         );
     }
+
+    #[test]
+    fn places_across_lie_a_pixel_apart_along_the_tangent() {
+        for angle in [0.0, 0.4, 1.9, -2.6] {
+            let (sin, cos) = libm::sincos(angle);
+            let (place, normal, tangent) = ([40.0, 31.5], [cos, sin], [-sin, cos]);
+            for (t, weights) in [
+                (2.5, &[0.25, 0.5, 0.125][..]),
+                (-1.0, &[1.0]),
+                (0.0, &[0.5; 5]),
+            ] {
+                let places: std::vec::Vec<_> = across(place, normal, weights, t).collect();
+                assert_eq!(places.len(), weights.len());
+                for (k, (weight, [column, row])) in places.into_iter().enumerate() {
+                    let away = [column - place[0], row - place[1]];
+                    let along = |unit: [f64; 2]| away[0] * unit[0] + away[1] * unit[1];
+                    assert_eq!(weight, weights[k]);
+                    assert!((along(normal) - t).abs() < 1e-12);
+                    let beside = k as f64 - (weights.len() / 2) as f64;
+                    assert!((along(tangent) - beside).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    /// A parabola of slopes around a reading, zero beyond those beside it.
+    fn peak(slopes: &mut [f64], at: usize, part: f64, height: f64) {
+        for (k, slope) in (at - 1..=at + 1).zip([-1.0, 0.0, 1.0]) {
+            slopes[k] = height * (1.0 - (slope - part) * (slope - part) / 4.0);
+        }
+    }
+
+    #[test]
+    fn the_strongest_slope_lies_where_its_parabola_is_greatest() {
+        for (at, part) in [(10, 0.0), (10, 0.3), (4, -0.45), (17, 0.25)] {
+            let mut slopes = [0.0; 21];
+            peak(&mut slopes, at, part, 7.0);
+            let NormalReading::At(found) = strongest(&slopes, 2.0) else {
+                panic!("there is one");
+            };
+            let expected = 2.0 + READING_STEP * (at as f64 - 10.0 + part);
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+        for falling in [[0.0; 21], [-1.0; 21], core::array::from_fn(|k| -(k as f64))] {
+            assert_eq!(strongest(&falling, 2.0), NormalReading::Nothing);
+        }
+        // A rise up to the last reading has no maximum.
+        let rising: [f64; 21] = core::array::from_fn(|k| k as f64);
+        assert_eq!(strongest(&rising, 2.0), NormalReading::Nothing);
+    }
+
+    /// The prior is a Gaussian whose standard deviation is half of the range to one side.
+    #[test]
+    fn a_slope_farther_off_counts_for_less() {
+        let (near, far) = (12usize, 3usize);
+        let off = |at: usize| READING_STEP * (at as f64 - 10.0);
+        let sigma = READING_STEP * 10.0 / 2.0;
+        let prior = |at: usize| libm::exp(-0.5 * libm::pow(off(at) / sigma, 2.0));
+        let even = prior(near) / prior(far);
+        for (factor, expected) in [(0.999, near), (1.001, far)] {
+            let mut slopes = [0.0; 21];
+            peak(&mut slopes, near, 0.0, 5.0);
+            peak(&mut slopes, far, 0.0, 5.0 * even * factor);
+            let found = strongest(&slopes, 0.0);
+            assert_eq!(found, NormalReading::At(off(expected)), "{factor}");
+        }
+        // As far off on one side as on the other, the first.
+        let mut slopes = [0.0; 21];
+        peak(&mut slopes, 6, 0.0, 5.0);
+        peak(&mut slopes, 14, 0.0, 5.0);
+        assert_eq!(strongest(&slopes, 0.0), NormalReading::At(-2.0));
+    }
 }

@@ -293,4 +293,33 @@ mod tests {
         assert_eq!(Silhouette::from(&small).unmatched(&large), None);
         assert!(!Silhouette::from(&small).is_known(3, 4));
     }
+
+    /// The four pixels around a place tell, of which some may lie in the mask.
+    #[test]
+    fn beyond_a_crop_it_is_clear_as_far_as_the_frame_goes() {
+        for (columns, rows) in [(10..42, 7..12), (0..32, 0..5), (3..35, 15..20)] {
+            let crop = Crop::around(columns.clone(), rows.clone(), 0, [45, 20]).expect("possible");
+            let words = [0; words_needed(32, 5)];
+            let mask = Mask::new(&words, 32, 5).expect("valid");
+            let cropped = Silhouette::from(&mask)
+                .in_crop(&crop)
+                .expect("nothing near a side");
+            let [left, top] = [columns.start as i32, rows.start as i32];
+            for (column, row) in
+                (-20..60).flat_map(|column| (-20..30).map(move |row| (column, row)))
+            {
+                let in_frame = |dx: i32, dy: i32| {
+                    (0..45).contains(&(column + dx + left)) && (0..20).contains(&(row + dy + top))
+                };
+                let around = [(0, 0), (1, 0), (0, 1), (1, 1)];
+                let expected = around.into_iter().all(|(dx, dy)| in_frame(dx, dy));
+                assert_eq!(
+                    cropped.is_clear_beyond(column, row),
+                    expected,
+                    "{column} {row}"
+                );
+            }
+            assert!(!Silhouette::from(&mask).is_clear_beyond(3, 3));
+        }
+    }
 }

@@ -144,5 +144,26 @@ mod tests {
             });
             prop_assert_eq!(tiles.meets(&[columns, rows]), naive);
         }
+
+        /// The same where tiles of four pixels reach just from the first to the last, and boxes lie about these.
+        #[test]
+        fn a_box_meets_what_the_outermost_tiles_hold(
+            pixels in proptest::collection::vec(proptest::array::uniform2(prop_oneof![0..9i32, 503..512i32]), 1..9),
+            [column, row] in proptest::array::uniform2(prop_oneof![-9..9i32, 495..520i32]),
+            [wide, high] in proptest::array::uniform2(0..12i32),
+        ) {
+            let ends = [[0, 0], [511, 511]];
+            let mut tiles = Tiles::around(ends.into_iter(), 2);
+            prop_assert_eq!(tiles.places, 2);
+            for &pixel in &pixels {
+                let tile = tiles.mark(pixel);
+                prop_assert_eq!(tile, pixel.map(|at| at as usize / 4));
+            }
+            let holds = |from: i32, length: i32, pixel: i32| {
+                (from..from + length).any(|inside| inside >> 2 == pixel >> 2)
+            };
+            let naive = pixels.iter().any(|&[x, y]| holds(column, wide, x) && holds(row, high, y));
+            prop_assert_eq!(tiles.meets(&[column..column + wide, row..row + high]), naive);
+        }
     }
 }

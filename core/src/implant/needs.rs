@@ -85,3 +85,52 @@ fn is_silhouette(model: &Model<'_>, edge: &MeshEdge, view: &[f64; 3]) -> bool {
     let b = dot(&cross(&subtract(&back, &from), &along), view);
     (a > 0.0) != (b > 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::mesh::edges::fake::{Linked, add_box};
+    use std::vec::Vec;
+
+    /// From any side a box has six silhouette edges, two of each direction.
+    #[test]
+    fn of_a_box_six_edges_are_seen_and_as_long_as_from_where_they_are_longest() {
+        for sides in [[20.0f32, 20.0, 20.0], [90.0, 20.0, 6.0], [40.0, 40.0, 2.0]] {
+            let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+            add_box(
+                [5.0; 3],
+                sides.map(|side| side + 5.0),
+                &mut vertices,
+                &mut triangles,
+            );
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let sides = sides.map(f64::from);
+            // Along a unit vector an edge is seen as long as is left of it across: all sides, by small steps.
+            let mut longest = 0.0f64;
+            for (k, j) in (0..200).flat_map(|k| (0..200).map(move |j| (k, j))) {
+                let height = (f64::from(k) + 0.5) / 200.0;
+                let ring = crate::math::sqrt(1.0 - height * height);
+                let (sin, cos) =
+                    crate::math::sin_cos(f64::from(j) / 200.0 * core::f64::consts::FRAC_PI_2);
+                let view = [ring * cos, height, ring * sin];
+                let seen = sides
+                    .iter()
+                    .zip(view)
+                    .map(|(side, x)| 2.0 * side * crate::math::sqrt(1.0 - x * x));
+                longest = longest.max(seen.sum());
+            }
+            let rows = crate::math::norm(&sides);
+            let linked = Linked::new(&mesh);
+            let needs = contour_needed(&linked.model(mesh));
+            let expected = (longest / rows) as usize + 1;
+            assert_eq!((needs.edges, needs.crossings_a_row), (6, expected));
+            let packed = linked.packed();
+            for edges in [packed.edges(), packed.tight_edges()] {
+                let model = Model::with_edges(mesh, edges).expect("its own");
+                assert_eq!(contour_needed(&model), needs);
+            }
+            assert_eq!(contour_needed(&Model::new(mesh)), ContourNeeds::default());
+        }
+    }
+}

@@ -222,3 +222,70 @@ impl<'m> Builder<'m> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::ViewAxis;
+
+    const VERTICES: [[f32; 3]; 4] = [
+        [-30.0, 10.0, 5.0],
+        [30.0, 10.0, 5.0],
+        [0.0, -20.0, 5.0],
+        [0.0, 40.0, 45.0],
+    ];
+    const TRIANGLES: [[u32; 3]; 4] = [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3]];
+
+    fn builder(distance: f64) -> Result<Builder<'static>, BuildError> {
+        let model = Model::from_triangles(&VERTICES, &TRIANGLES).expect("valid");
+        let camera = Camera::new(640, 480, [900.0; 2], [320.0, 240.0]).expect("valid");
+        let axis = ViewAxis {
+            first: -40.0,
+            step: 20.0,
+            count: 5,
+        };
+        let grid = ViewGrid { x: axis, y: axis };
+        Builder::new(model, camera, CanonicalSpec::COARSE, grid, distance)
+    }
+
+    #[test]
+    fn a_view_just_holds_the_sphere_around_the_model() {
+        for distance in [60.0, 100.0, 1000.0, 50_000.0] {
+            let builder = builder(distance).expect("possible");
+            let radius = builder.model.bounds().radius;
+            // The outermost ray touches the sphere; of 80 pixels, two to each side are left.
+            let tangent = libm::tan(libm::asin(radius / distance));
+            let reach = builder.info.focal * tangent;
+            assert!((reach - 38.0).abs() < 1e-6, "{distance}: {reach}");
+            assert_eq!(builder.view_camera.width(), 80);
+            assert_eq!(builder.view_camera.principal_point(), [40.0; 2]);
+            // Seen at that distance, a pixel is so wide.
+            assert!((builder.detail_mm() * builder.info.focal - distance).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_model_that_reaches_the_focus_has_no_views() {
+        let radius = builder(1000.0).expect("possible").model.bounds().radius;
+        for distance in [f64::NAN, 0.0, -1000.0, radius, 1.01 * radius] {
+            assert!(matches!(
+                builder(distance),
+                Err(BuildError::TooNear { radius: told, .. }) if told == radius
+            ));
+        }
+        assert!(builder((1.01 * radius).next_up()).is_ok());
+    }
+
+    #[test]
+    fn in_every_view_the_reference_point_stands_on_the_axis() {
+        let builder = builder(500.0).expect("possible");
+        for view in 0..builder.views() {
+            let [x_deg, y_deg] = builder.info.grid.rotations(view);
+            let pose = builder.view_pose(x_deg, y_deg);
+            let place = pose.transform(&builder.info.reference);
+            let off = [place[0], place[1], place[2] + 500.0];
+            assert!(off.iter().all(|off| off.abs() < 1e-9), "{place:?}");
+            assert_eq!(pose.rotation, rotation_zxy(0.0, x_deg, y_deg));
+        }
+    }
+}

@@ -13,6 +13,19 @@ use crate::image::mask::{Mask, MaskMut, Word};
 
 /// A plain library of these canonical masks: `columns` views along x.
 pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: CanonicalSpec) -> Vec<u8> {
+    plain_library_of(views, columns, spec, |x, y| ViewRecord {
+        scale: 1.0 + (y * columns + x) as f64,
+        ..ViewRecord::default()
+    })
+}
+
+/// The same with records of one's own, by the place of each, but for rotations and areas.
+pub(crate) fn plain_library_of(
+    views: &[Vec<Word>],
+    columns: usize,
+    spec: CanonicalSpec,
+    record: impl Fn(usize, usize) -> ViewRecord,
+) -> Vec<u8> {
     let axis = |count| ViewAxis {
         first: -2.0,
         step: 1.0,
@@ -36,9 +49,8 @@ pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: Canonical
         let record = ViewRecord {
             x_deg: info.grid.x.at(x as f64),
             y_deg: info.grid.y.at(y as f64),
-            scale: 1.0 + view as f64,
             area: 1 + view as u32,
-            ..ViewRecord::default()
+            ..record(x, y)
         };
         let mut place = [0; RECORD_BYTES];
         write_record(&mut place, &record);

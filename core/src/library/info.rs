@@ -162,3 +162,76 @@ pub struct ViewRecord {
     /// See [`crate::canonical::CanonicalForm::elongation`].
     pub elongation: f32,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(step: f64, count: usize) -> ViewGrid {
+        let y = ViewAxis {
+            first: -180.0,
+            step,
+            count,
+        };
+        ViewGrid { x: y, y }
+    }
+
+    #[test]
+    fn a_grid_goes_all_around_where_its_last_views_are_a_step_from_the_first() {
+        for (step, count, around) in [
+            (10.0, 36, true),
+            (10.0, 35, false),
+            (10.0, 37, false),
+            // As good as a step: to less than half of one.
+            (10.13, 36, true),
+            (10.15, 36, false),
+            (9.87, 36, true),
+            (9.85, 36, false),
+            (1.0, 41, false),
+            (360.0, 1, true),
+        ] {
+            assert_eq!(grid(step, count).is_around(), around, "{step} {count}");
+        }
+        assert!(!ViewGrid::default().is_around());
+        assert!(ViewGrid::everywhere().is_around());
+    }
+
+    #[test]
+    fn a_sphere_has_views_from_all_sides_in_whole_parts_of_half_a_turn() {
+        for (wanted, step, columns) in [
+            (0.2, 1.0, 180),
+            (2.5, 2.5, 72),
+            (7.0, 180.0 / 26.0, 26),
+            (15.0, 15.0, 12),
+            (90.0, 15.0, 12),
+        ] {
+            let grid = ViewGrid::sphere(wanted);
+            assert_eq!((grid.x.step, grid.y.step), (step, step), "{wanted}");
+            assert_eq!((grid.x.count, grid.y.count), (columns, 2 * columns));
+            // Half a step from pole to pole, and a step from the last to the first.
+            let last = |axis: &ViewAxis| axis.at((axis.count - 1) as f64);
+            assert!((grid.x.first + 90.0 - step / 2.0).abs() < 1e-9);
+            assert!((last(&grid.x) - 90.0 + step / 2.0).abs() < 1e-9);
+            assert!((last(&grid.y) + step - grid.y.first - 360.0).abs() < 1e-9);
+            assert!(grid.is_around());
+        }
+    }
+
+    #[test]
+    fn each_view_has_its_place_and_rotations() {
+        let mut grid = grid(2.0, 4);
+        grid.x = ViewAxis {
+            first: -3.0,
+            step: 1.5,
+            count: 3,
+        };
+        assert_eq!(grid.views(), 12);
+        let places = (0..4).flat_map(|y| (0..3).map(move |x| (x, y)));
+        for (view, (x, y)) in places.enumerate() {
+            assert_eq!((grid.view(x, y), grid.place(view)), (view, (x, y)));
+            let rotations = [1.5 * x as f64 - 3.0, 2.0 * y as f64 - 180.0];
+            assert_eq!(grid.rotations(view), rotations);
+        }
+        assert_eq!(grid.y.shifted(7.0).at(0.5), -172.0);
+    }
+}

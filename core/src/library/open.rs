@@ -349,3 +349,136 @@ pub(super) fn check_info(info: &LibraryInfo) -> Result<(), LibraryError> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::ViewAxis;
+
+    fn info() -> LibraryInfo {
+        LibraryInfo {
+            canonical: CanonicalSpec::default(),
+            grid: ViewGrid::default(),
+            distance: 1000.0,
+            reference: [1.0, 2.0, 3.0],
+            focal: 3000.0,
+            camera: Camera::new(64, 64, [500.0; 2], [32.0; 2]).expect("valid"),
+            model: [0; 32],
+        }
+    }
+
+    fn axis(first: f64, step: f64, count: usize) -> ViewAxis {
+        ViewAxis { first, step, count }
+    }
+
+    /// Which number of a library is told to be impossible.
+    fn told(change: impl FnOnce(&mut LibraryInfo)) -> Option<&'static str> {
+        let mut info = info();
+        change(&mut info);
+        match check_info(&info) {
+            Ok(()) => None,
+            Err(LibraryError::Value(name)) => Some(name),
+            Err(other) => panic!("{other}"),
+        }
+    }
+
+    #[test]
+    fn rotations_of_a_library_stay_within_their_reach() {
+        for (axis, x, y) in [
+            (axis(-89.0, 1.0, 179), true, true),
+            (axis((-89.0f64).next_up(), 1.0, 1), true, true),
+            (axis((-89.0f64).next_down(), 1.0, 1), false, true),
+            (axis(-89.0, 1.0, 180), false, true),
+            (axis(-360.0, 1.0, 721), false, true),
+            (axis(-360.0, 1.0, 722), false, false),
+            (axis((-360.0f64).next_down(), 1.0, 3), false, false),
+            (axis(0.0, 0.0, 3), false, false),
+            (axis(0.0, -1.0, 3), false, false),
+            (axis(0.0, f64::NAN, 3), false, false),
+            (axis(f64::NAN, 1.0, 3), false, false),
+            (axis(0.0, 1.0, 0), false, false),
+            (axis(0.0, 1.0, 1), true, true),
+            (axis(0.0, 0.02, 4096), true, true),
+            (axis(0.0, 0.02, 4097), false, false),
+        ] {
+            let possible = |possible: bool, name| (!possible).then_some(name);
+            let told_x = told(|info| info.grid.x = axis);
+            assert_eq!(told_x, possible(x, X_ROTATIONS), "{axis:?}");
+            let told_y = told(|info| info.grid.y = axis);
+            assert_eq!(told_y, possible(y, Y_ROTATIONS), "{axis:?}");
+        }
+    }
+
+    #[test]
+    fn lengths_of_a_library_stay_within_their_limits() {
+        assert_eq!(told(|_| {}), None);
+        for (distance, possible) in [
+            (f64::MIN_POSITIVE, true),
+            (1e5, true),
+            (0.0, false),
+            (1e5f64.next_up(), false),
+            (f64::NAN, false),
+        ] {
+            let told = told(|info| info.distance = distance);
+            assert_eq!(told, (!possible).then_some(DISTANCE), "{distance}");
+        }
+        for (focal, possible) in [
+            (1.0, true),
+            (1e7, true),
+            (1.0f64.next_down(), false),
+            (1e7f64.next_up(), false),
+            (f64::NAN, false),
+        ] {
+            let told = told(|info| info.focal = focal);
+            assert_eq!(told, (!possible).then_some("focal length"), "{focal}");
+        }
+        for (at, possible) in [
+            (1e4, true),
+            (-1e4, true),
+            (1e4f64.next_up(), false),
+            (-(1e4f64.next_up()), false),
+            (f64::NAN, false),
+        ] {
+            for k in 0..3 {
+                let told = told(|info| info.reference[k] = at);
+                assert_eq!(told, (!possible).then_some("reference point"), "{at}");
+            }
+        }
+    }
+
+    #[test]
+    fn records_of_views_stay_within_their_limits() {
+        let usual = ViewRecord {
+            scale: 1.0,
+            area: 1,
+            ..ViewRecord::default()
+        };
+        let is = |change: &dyn Fn(&mut ViewRecord)| {
+            let mut record = usual;
+            change(&mut record);
+            is_possible(&record)
+        };
+        assert!(is(&|_| {}));
+        assert!(!is(&|record| record.area = 0));
+        let scales = [1e-4, 1e4].map(|scale| (scale, true));
+        let beyond = [1e-4f64.next_down(), 1e4f64.next_up(), 0.0, -1.0, f64::NAN];
+        for (scale, possible) in scales.into_iter().chain(beyond.map(|scale| (scale, false))) {
+            assert_eq!(is(&|record| record.scale = scale), possible, "{scale}");
+        }
+        for (angle, possible) in [(2.0, true), (2.0f64.next_up(), false), (f64::NAN, false)] {
+            assert_eq!(is(&|record| record.angle = angle), possible, "{angle}");
+            assert_eq!(is(&|record| record.angle = -angle), possible, "-{angle}");
+        }
+        for (at, possible) in [(1e6f64.next_down(), true), (1e6, false), (f64::NAN, false)] {
+            for k in 0..2 {
+                assert_eq!(is(&|record| record.offset[k] = at), possible, "{at}");
+                assert_eq!(is(&|record| record.offset[k] = -at), possible, "-{at}");
+            }
+        }
+        for (elongation, possible) in [(0.0, true), (1.0, true), (-0.1, false), (1.1, false)] {
+            let told = is(&|record| record.elongation = elongation);
+            assert_eq!(told, possible, "{elongation}");
+        }
+        assert!(!is(&|record| record.elongation = f32::NAN));
+    }
+}

@@ -451,4 +451,29 @@ mod tests {
         bytes.resize(BAND_BYTES + 2 * per_row, 0);
         assert!(bands(&bytes).next().is_none());
     }
+
+    #[test]
+    fn rows_that_follow_one_another_with_as_many_runs_are_one_band() {
+        let mut words = [0; words_needed(64, 64)];
+        let mut mask = MaskMut::new(&mut words, 64, 64).expect("fits");
+        for (row, from, to) in [
+            (2, 5, 9),
+            (3, 4, 12),
+            // Two runs.
+            (4, 1, 2),
+            (4, 60, 64),
+            // One again, and after a row without any.
+            (5, 0, 64),
+            (7, 8, 10),
+        ] {
+            mask.fill_span(row, from, to);
+        }
+        let bands: [&[u8]; 4] = [
+            &[2, 0, 2, 0, 1, 0, 5, 4, 4, 8],
+            &[4, 0, 1, 0, 2, 0, 1, 1, 58, 4],
+            &[5, 0, 1, 0, 1, 0, 0, 64],
+            &[7, 0, 1, 0, 1, 0, 8, 2],
+        ];
+        assert_eq!(packed(&words, 64), bands.concat());
+    }
 }

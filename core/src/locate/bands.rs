@@ -196,6 +196,15 @@ fn newton_step(functionals: &[Functional; 2], place: [f64; 2]) -> Option<[f64; 2
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canonical::{CanonicalSpec, reverse};
+    use crate::image::mask::{MaskMut, Word};
+    use crate::library::ViewAxis;
+    use crate::library::fake::{plain_library, spots};
+    use crate::search::kernels::Kernels;
+    use crate::search::{
+        Query, ViewSearchMemory, query_bytes_needed, scores_needed, search_bytes_needed,
+    };
+    use core::f64::consts::PI;
     use proptest::prelude::*;
 
     #[test]
@@ -247,5 +256,205 @@ mod tests {
         assert_eq!(window(8, 9, 2), 4..9);
         assert_eq!(window(1, 3, 2), 0..3);
         assert_eq!(window(0, 1, 1), 0..1);
+    }
+
+    /// A functional without curvature, of these slopes, that is zero at a place.
+    fn plane([along_x, along_y]: [f64; 2], [x, y]: [f64; 2]) -> Functional {
+        let constant = -(along_x * x + along_y * y);
+        Functional {
+            terms: [[constant, along_y, 0.0], [along_x, 0.0, 0.0], [0.0; 3]],
+        }
+    }
+
+    properties! {
+        /// However long the slopes are: what counts is the angle between them.
+        #[test]
+        fn one_step_solves_two_planes_that_are_not_nearly_parallel(
+            start in proptest::array::uniform2(-1.0..1.0f64),
+            solution in proptest::array::uniform2(-1.0..1.0f64),
+            direction in -PI..PI,
+            between in prop_oneof![0.0..0.06f64, 0.06..PI - 0.06, PI - 0.06..PI],
+            lengths in proptest::array::uniform2(-7.0..7.0f64),
+        ) {
+            let slopes = |angle: f64, length: f64| {
+                let (sin, cos) = libm::sincos(angle);
+                [cos, sin].map(|along| along * libm::exp(length))
+            };
+            let functionals = [
+                plane(slopes(direction, lengths[0]), solution),
+                plane(slopes(direction + between, lengths[1]), solution),
+            ];
+            let sine = libm::sin(between);
+            let step = newton_step(&functionals, start);
+            // Not where rounding decides.
+            if (sine * sine - 1e-3).abs() > 1e-9 {
+                prop_assert_eq!(step.is_some(), sine * sine > 1e-3, "{}", between);
+            }
+            if let Some(step) = step {
+                for axis in 0..2 {
+                    prop_assert!((start[axis] - step[axis] - solution[axis]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    fn grid(columns: usize, rows: usize) -> ViewGrid {
+        let axis = |count| ViewAxis {
+            first: 0.0,
+            step: 1.0,
+            count,
+        };
+        ViewGrid {
+            x: axis(columns),
+            y: axis(rows),
+        }
+    }
+
+    #[test]
+    fn a_neighbourhood_is_three_by_three_and_its_ends_lie_beside_the_view() {
+        let sizes = (1..6).flat_map(|columns| (1..6).map(move |rows| (columns, rows)));
+        for (columns, rows) in sizes {
+            let grid = grid(columns, rows);
+            for view in 0..grid.views() {
+                let near = Neighbourhood::new(&grid, view);
+                assert_eq!(near.is_some(), columns >= 3 && rows >= 3);
+                let Some(near) = near else {
+                    continue;
+                };
+                let (x, y) = grid.place(view);
+                let middle = [x.clamp(1, columns - 2), y.clamp(1, rows - 2)];
+                assert_eq!(near.middle, middle.map(|at| at as f64));
+                let [column, row] = middle;
+                for (node, view) in near.views.into_iter().enumerate() {
+                    let place = (column + node % 3 - 1, row + node / 3 - 1);
+                    assert_eq!(grid.place(view), place);
+                }
+                let ends = near.ends.map(|end| grid.place(near.views[end]));
+                let across = [(column + 1, y), (column - 1, y)];
+                assert_eq!(ends, [across[0], across[1], (x, row + 1), (x, row - 1)]);
+            }
+        }
+    }
+
+    const SIZE: usize = 64;
+
+    fn with_search<T>(
+        views: &[std::vec::Vec<Word>],
+        silhouette: &[Word],
+        look: impl FnOnce(&mut ViewSearch<'_, '_>) -> T,
+    ) -> T {
+        let spec = CanonicalSpec::new(SIZE, 900).expect("possible");
+        let bytes = plain_library(views, 4, spec);
+        let library = Library::open(&bytes).expect("valid");
+        let mut rotated = silhouette.to_vec();
+        reverse(silhouette, &mut rotated);
+        let mut prepared = std::vec![0; query_bytes_needed(&spec)];
+        let query = Query::new(&spec, silhouette, &rotated, &mut prepared).expect("long enough");
+        let memory = ViewSearchMemory {
+            bounds: &mut std::vec![0; scores_needed(views.len())],
+            sketches: &mut std::vec![0; search_bytes_needed(&spec)],
+        };
+        let search = ViewSearch::new(&library, &query, &Kernels::PORTABLE, memory);
+        look(&mut search.expect("long enough"))
+    }
+
+    fn common(a: &[Word], b: &[Word]) -> f64 {
+        let both = a.iter().zip(b).map(|(a, b)| (a & b).count_ones());
+        f64::from(both.sum::<u32>())
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Of what is set ahead alone and of what is set behind alone, a view's pixels less the silhouette's, one by one.
+        #[test]
+        fn functionals_count_the_pixels_of_the_bands(
+            views in proptest::collection::vec(spots(SIZE), 16),
+            silhouette in spots(SIZE),
+            view in 0..16usize,
+        ) {
+            let mut rotated = silhouette.clone();
+            reverse(&silhouette, &mut rotated);
+            let near = Neighbourhood::new(&grid(4, 4), view).expect("large enough");
+            let found = with_search(&views, &silhouette, |search| {
+                [false, true].map(|reversed| near.functionals(search, reversed))
+            });
+            for (functionals, silhouette) in found.iter().zip([&silhouette, &rotated]) {
+                for (axis, functional) in functionals.iter().enumerate() {
+                    let [ahead, behind] = [0, 1].map(|end| &views[near.views[near.ends[2 * axis + end]]]);
+                    for (node, &view) in near.views.iter().enumerate() {
+                        let band = |own: &[Word]| common(ahead, own) - common(behind, own);
+                        let place = [(node % 3) as f64 - 1.0, (node / 3) as f64 - 1.0];
+                        prop_assert_eq!(functional.at(place).value, band(&views[view]) - band(silhouette));
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn a_view_lies_at_its_own_place(
+            views in proptest::collection::vec(spots(SIZE), 16),
+            view in 0..16usize,
+        ) {
+            let (x, y) = grid(4, 4).place(view);
+            let candidate = ViewMatch { view, reversed: false, unmatched: 0 };
+            let own = with_search(&views, &views[view], |search| solve(search, &candidate));
+            // `None` where views around it are alike.
+            prop_assert!(own.is_none_or(|place| place == [x as f64, y as f64]), "{:?}", own);
+        }
+    }
+
+    /// A rectangle that lies this many pixels to the right and down.
+    fn rectangle([right, down]: [usize; 2]) -> std::vec::Vec<Word> {
+        let mut words = std::vec![0; SIZE * SIZE / 32];
+        let mut mask = MaskMut::new(&mut words, SIZE, SIZE).expect("fits");
+        for row in down..down + 30 {
+            mask.fill_span(row, right as i64, right as i64 + 24);
+        }
+        words
+    }
+
+    /// Its bands are as wide as it moved, so that nothing is lost to rounding.
+    #[test]
+    fn what_lies_half_way_between_two_views_is_found_there() {
+        let views: std::vec::Vec<_> = (0..16)
+            .map(|view| rectangle([8 + 4 * (view % 4), 6 + 4 * (view / 4)]))
+            .collect();
+        let mut found = 0;
+        for (view, axis) in (0..16).flat_map(|view| [(view, 0), (view, 1)]) {
+            let at = [view % 4, view / 4];
+            // Beside the axis along which it moves it lies in the middle of three.
+            if !(1..=2).contains(&at[1 - axis]) {
+                continue;
+            }
+            for ahead in [false, true] {
+                if at[axis] == if ahead { 3 } else { 0 } {
+                    continue;
+                }
+                let mut place = [8 + 4 * at[0], 6 + 4 * at[1]];
+                let mut expected = at.map(|at| at as f64);
+                if ahead {
+                    place[axis] += 2;
+                    expected[axis] += 0.5;
+                } else {
+                    place[axis] -= 2;
+                    expected[axis] -= 0.5;
+                }
+                let candidate = ViewMatch {
+                    view,
+                    reversed: false,
+                    unmatched: 0,
+                };
+                let solved = with_search(&views, &rectangle(place), |search| {
+                    solve(search, &candidate)
+                });
+                let solved = solved.expect("there is one");
+                for k in 0..2 {
+                    assert!((solved[k] - expected[k]).abs() < 1e-9, "{solved:?} {at:?}");
+                }
+                found += 1;
+            }
+        }
+        assert_eq!(found, 24);
     }
 }

@@ -124,7 +124,9 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canonical::CanonicalSpec;
     use crate::library::ViewAxis;
+    use crate::library::fake::plain_library_of;
 
     #[test]
     fn the_minimum_of_a_bowl_is_found_between_the_views() {
@@ -148,6 +150,86 @@ mod tests {
             let (dx, dy) = fit_minimum(&grid, |view| surface[view], x as usize, y as usize);
             assert!((x + dx - mx).abs() < 0.02, "{mx}: {}", x + dx);
             assert!((y + dy - my).abs() < 0.02, "{my}: {}", y + dy);
+        }
+    }
+
+    /// Scale, angle and offset as polynomials of the place that three by three views tell.
+    fn record(x: f64, y: f64) -> ViewRecord {
+        let angle = 1.2 + 0.21 * x - 0.13 * y + 0.02 * x * y + 0.01 * x * x;
+        ViewRecord {
+            scale: 1.0 + 0.05 * x * x - 0.02 * x * y * y + 0.03 * x * x * y * y,
+            // An axis has a period of half a turn, so that records of neighbours may seem far apart.
+            angle: wrap(angle, core::f64::consts::PI),
+            offset: [3.0 * x - y * y, 0.5 - x * x + 0.25 * x * y],
+            ..ViewRecord::default()
+        }
+    }
+
+    #[test]
+    fn a_record_between_the_views_is_that_of_their_polynomials() {
+        let spec = CanonicalSpec::new(64, 900).expect("possible");
+        let views = std::vec![std::vec![1; spec.words_needed()]; 20];
+        let own = |x: usize, y: usize| record(x as f64, y as f64);
+        let bytes = plain_library_of(&views, 5, spec, own);
+        let library = Library::open(&bytes).expect("valid");
+        let jumps = (0..4).filter(|&x| (own(x, 0).angle - own(x + 1, 0).angle).abs() > 1.0);
+        assert_eq!(jumps.count(), 1, "the angle wraps within the grid");
+        let places = (0..=40).flat_map(|x| (0..=30).map(move |y| [x, y]));
+        for place in places.map(|place| place.map(|at| f64::from(at) / 10.0)) {
+            let (found, expected) = (record_at(&library, place), record(place[0], place[1]));
+            assert!((found.scale - expected.scale).abs() < 1e-9, "{place:?}");
+            let off = wrap(found.angle - expected.angle, core::f64::consts::PI);
+            assert!(off.abs() < 1e-9, "{place:?}: {off}");
+            for k in 0..2 {
+                assert!((found.offset[k] - expected.offset[k]).abs() < 1e-9);
+            }
+            let rotations = [found.x_deg, found.y_deg];
+            assert_eq!(rotations, place.map(|at| at - 2.0));
+            // Of the nearest view.
+            let [x, y] = place.map(|at| (at + 0.5) as u32);
+            assert_eq!(found.area, 1 + 5 * y + x);
+        }
+    }
+
+    #[test]
+    fn a_surface_without_a_minimum_near_leaves_the_view_as_it_is() {
+        let axis = |count| ViewAxis {
+            first: 0.0,
+            step: 1.0,
+            count,
+        };
+        let grid = ViewGrid {
+            x: axis(7),
+            y: axis(9),
+        };
+        type Surface = fn(f64, f64) -> f64;
+        let surfaces: [(Surface, (f64, f64)); 5] = [
+            (|_, _| 50.0, (0.0, 0.0)),
+            (|a, b| 900.0 + 40.0 * a * a - 30.0 * b * b, (0.0, 0.0)),
+            (|a, b| 900.0 + 100.0 * a + 10.0 * b, (0.0, 0.0)),
+            // Just within a step, and beyond.
+            (
+                |a, b| 20.0 * (a - 1.0) * (a - 1.0) + 20.0 * b * b,
+                (1.0, 0.0),
+            ),
+            (
+                |a, b| 20.0 * (a - 1.5) * (a - 1.5) + 20.0 * b * b,
+                (0.0, 0.0),
+            ),
+        ];
+        for (surface, (dx, dy)) in surfaces {
+            // In the middle, and where the views around lie to one side.
+            for (x, y) in [(3, 4), (1, 7)] {
+                let score = |view: usize| {
+                    let (u, v) = grid.place(view);
+                    surface(u as f64 - x as f64, v as f64 - y as f64) as u32
+                };
+                let (found_x, found_y) = fit_minimum(&grid, score, x, y);
+                // The minimum itself may lie by rounding beyond the step.
+                let found = [found_x, found_y];
+                let near = |to: [f64; 2]| (0..2).all(|k| (found[k] - to[k]).abs() < 1e-6);
+                assert!(near([dx, dy]) || dx == 1.0 && near([0.0; 2]), "{found:?}");
+            }
         }
     }
 }

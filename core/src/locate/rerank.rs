@@ -93,3 +93,90 @@ pub(crate) fn add_drawn<const K: usize>(
         Err(error) => Err(error),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::mask::{Mask, words_needed};
+    use crate::library::ViewRecord;
+    use crate::locate::interpolate::FineView;
+    use crate::mesh::edges::fake::add_box;
+    use crate::render::scratch_needed;
+    use std::vec::Vec as List;
+
+    const SIDE: usize = 96;
+
+    fn located(x_mm: f64, z_mm: f64) -> Located {
+        Located {
+            pose: Pose {
+                translation: [x_mm, 0.0, z_mm],
+                ..Pose::IDENTITY
+            },
+            view: 0,
+            fine: FineView {
+                record: ViewRecord::default(),
+                reversed: false,
+                unmatched: 0,
+                at_border: false,
+            },
+            by_pieces: false,
+        }
+    }
+
+    /// Of how many pixels each pose, by what it lies aside, differs from one that lies where the silhouette does.
+    fn reranked<const K: usize>(poses: &[Located]) -> Result<List<(f64, u64)>, RenderError> {
+        let (mut vertices, mut triangles) = (List::new(), List::new());
+        add_box(
+            [-10.0, -5.0, -1.0],
+            [10.0, 5.0, 1.0],
+            &mut vertices,
+            &mut triangles,
+        );
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        // At 99 mm from the focus, where its nearer side is, two pixels a mm.
+        let camera = Camera::new(SIDE, SIDE, [198.0; 2], [48.0; 2]).expect("valid");
+        let mut scratch = std::vec![Projected::default(); scratch_needed(&model)];
+        let mut drawn = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut drawn = MaskMut::new(&mut drawn, SIDE, SIDE).expect("fits");
+        let mut seen = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut seen, SIDE, SIDE).expect("fits");
+        (38..58).for_each(|row| mask.fill_span(row, 28, 68));
+        let mask: Mask<'_> = mask.into_mask();
+        let silhouette = Silhouette::from(&mask);
+        let found: Vec<Reranked, K> = rerank(
+            poses,
+            &model,
+            &camera,
+            &silhouette,
+            &mut scratch,
+            &mut drawn,
+        )?;
+        let told = found
+            .iter()
+            .map(|one| (one.located.pose.translation[0], one.unmatched));
+        Ok(told.collect())
+    }
+
+    #[test]
+    fn poses_are_put_in_order_by_the_pixels_in_which_they_differ() {
+        let poses = [3.0, -1.0, 0.0, 2.0].map(|x| located(x, -100.0));
+        // Two pixels a mm, of twenty rows, at either end; of the farther side nothing is seen beside the nearer.
+        let all = [(0.0, 0), (-1.0, 80), (2.0, 160), (3.0, 240)];
+        assert_eq!(reranked::<4>(&poses), Ok(all.to_vec()));
+        // Only the first are drawn.
+        assert_eq!(reranked::<2>(&poses), Ok([all[1], all[3]].to_vec()));
+        assert_eq!(reranked::<4>(&[]), Ok(List::new()));
+    }
+
+    #[test]
+    fn a_pose_at_the_focus_is_left_out_and_told_where_there_is_no_other() {
+        let (good, bad) = (located(-1.0, -100.0), located(0.0, 0.5));
+        assert_eq!(reranked::<4>(&[bad, good]), Ok([(-1.0, 80)].to_vec()));
+        assert_eq!(reranked::<4>(&[good, bad]), Ok([(-1.0, 80)].to_vec()));
+        let error = reranked::<4>(&[bad, bad]);
+        assert!(
+            matches!(error, Err(RenderError::BehindCamera(_))),
+            "{error:?}"
+        );
+    }
+}

@@ -200,7 +200,7 @@ impl FacingTest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{add, scale};
+    use crate::math::{Matrix3, Vector3, add, apply, cross, scale, subtract};
     use crate::mesh::edges::fake::{self, Linked};
     use crate::pose::EulerPose;
     use crate::render::project::{Projected, project};
@@ -258,6 +258,78 @@ mod tests {
                 x_mm, y_mm, z_mm: nearer - 150.0, z_rot_deg, x_rot_deg, y_rot_deg
             });
             let [found, naive] = contours(&mesh, libm::exp(focal), &pose);
+            prop_assert_eq!(found, naive);
+        }
+    }
+
+    /// A rotation that lets a camera at a place look at the origin.
+    fn towards_origin(place: &Vector3) -> Matrix3 {
+        let unit = |way: &Vector3| scale(way, 1.0 / norm(way));
+        let back = unit(place);
+        let up = if back[1].abs() < 0.7 {
+            [0.0, 1.0, 0.0]
+        } else {
+            [1.0, 0.0, 0.0]
+        };
+        let right = unit(&cross(&up, &back));
+        [right, cross(&back, &right), back]
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(96))]
+
+        /// There the margins decide, which are of rounding by parts of a pixel: so much of a triangle as is seen may be all rounding.
+        #[test]
+        fn edges_of_triangles_that_are_seen_edge_on_are_those_of_their_images(
+            dents in proptest::collection::vec(-1.0..1.0f32, 1..40),
+            pick in any::<prop::sample::Index>(),
+            turn in -4.0..4.0f64,
+            [far, off, focal] in [3.8..13.0f64, -16.0..4.0f64, 0.0..7.0f64],
+            side in prop_oneof![Just(-1.0), Just(1.0)],
+        ) {
+            let (vertices, triangles) = fake::torus(&dents);
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let [a, b, c] = pick.get(&triangles).map(|vertex| vertices[vertex as usize].map(f64::from));
+            let unit = |way: &Vector3| scale(way, 1.0 / norm(way));
+            let normal = unit(&cross(&subtract(&b, &a), &subtract(&c, &a)));
+            let first = unit(&subtract(&b, &a));
+            let (sin, cos) = libm::sincos(turn);
+            let along = add(&scale(&first, cos), &scale(&cross(&normal, &first), sin));
+            // In the plane but for a little, the farther the more.
+            let far = 60.0 + libm::exp(far);
+            let above = scale(&normal, side * far / 100.0 * libm::exp(off));
+            let place = add(&add(&a, &scale(&along, far)), &above);
+            let rotation = towards_origin(&place);
+            let pose = Pose { rotation, translation: scale(&apply(&rotation, &place), -1.0) };
+            let [found, naive] = contours(&mesh, libm::exp(focal), &pose);
+            prop_assert_eq!(found, naive);
+        }
+
+        /// Of what lies far from its own origin planes are less certain.
+        #[test]
+        fn rounding_is_allowed_for_as_far_as_camera_and_vertices_lie_from_the_origin(
+            shift in proptest::array::uniform3(-900.0..900.0f32),
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            z_mm in -900.0..-150.0f64,
+        ) {
+            let (mut vertices, triangles) = fake::torus(&[0.0]);
+            for vertex in &mut vertices {
+                *vertex = core::array::from_fn(|k| vertex[k] + shift[k]);
+            }
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let mut pose = Pose::from(EulerPose { z_rot_deg, x_rot_deg, y_rot_deg, ..EulerPose::default() });
+            pose.translation = scale(&pose.transform(&mesh.bounds().centre), -1.0);
+            pose.translation[2] += z_mm;
+            let camera = Camera::new(64, 64, [300.0, 291.0], [31.0, 33.5]).expect("valid");
+            let facing = FacingTest::new(&mesh, &camera, &pose, &Reach::of(&mesh.bounds(), &pose));
+            let [.., rounding] = facing.margins.map(f64::from);
+            let camera = norm(&facing.place.map(f64::from));
+            for vertex in &vertices {
+                let both = camera + norm(&vertex.map(f64::from));
+                prop_assert!(rounding > f64::from(SINGLE) * both * 0.999_999);
+            }
+            let [found, naive] = contours(&mesh, 300.0, &pose);
             prop_assert_eq!(found, naive);
         }
     }

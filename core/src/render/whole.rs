@@ -230,6 +230,34 @@ mod tests {
             }
         }
 
+        /// Of a small part far from its own origin, seen through a long focal length, what errs most is how finely places are counted.
+        #[test]
+        fn an_image_of_what_lies_far_from_its_origin_is_that_of_doubles_or_none(
+            vertex in proptest::array::uniform3(-1.0..1.0f64), distance in 3.0..9.0f64,
+            radius in 0.005..0.02f64, axis in 0..3usize, away in 0.05..0.1f64,
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            place in proptest::array::uniform2(-0.01..0.01f64), focal in 6.0..11.5f64,
+        ) {
+            let distance = libm::exp(distance);
+            let radius = distance * radius;
+            // Of numbers much less than the largest some places are cut off.
+            let mut centre = [0.0; 3];
+            centre[axis] = distance * away;
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let mut pose = Pose::from(EulerPose { z_rot_deg, x_rot_deg, y_rot_deg, ..EulerPose::default() });
+            let from_origin = pose.transform(&centre);
+            let middle = [distance * place[0], distance * place[1], -distance];
+            pose.translation = core::array::from_fn(|k| middle[k] - from_origin[k]);
+            let focal = libm::exp(focal);
+            let camera = Camera::new(512, 512, [focal, 1.1 * focal], [250.3, -90.7]).expect("valid");
+            let vertex = core::array::from_fn(|k| (centre[k] + 0.1 * radius * vertex[k]) as f32);
+            let bounds = Bounds { centre, radius };
+            let whole = WholeImages::new(&camera, &pose, &bounds, &Reach::of(&bounds, &pose));
+            if let Some(image) = whole.and_then(|whole| whole.of(&vertex)) {
+                prop_assert_eq!((image, true), image_of(&camera, &pose, &vertex));
+            }
+        }
+
         #[test]
         fn a_reciprocal_is_within_five_parts(x in 1u32 << 31..=u32::MAX) {
             let exact = 2f64.powi(62) / f64::from(x);

@@ -213,5 +213,33 @@ mod tests {
                 }
             }
         }
+
+        /// Few scores, so that many are equal: of neighbours that are the first is one, and none after it.
+        #[test]
+        fn minima_are_all_that_no_neighbour_beats(
+            scores in proptest::collection::vec(0u32..4, 48),
+            around in any::<bool>(),
+        ) {
+            let (straight, reversed) = scores.split_at(24);
+            let turns = if around { 60.0 } else { 1.0 };
+            let y = ViewAxis { step: turns, ..axis(6) };
+            let surface = Scores { grid: ViewGrid { x: axis(4), y }, straight, reversed };
+            let beside = |a: usize, b: usize| {
+                let ([x, y], [other_x, other_y]) = ([a % 4, a / 4], [b % 4, b / 4]);
+                let rows = y.abs_diff(other_y);
+                x.abs_diff(other_x) <= 1 && (rows <= 1 || around && rows == 5)
+            };
+            let mut naive = std::vec::Vec::new();
+            for (reversed, scores) in [(false, straight), (true, reversed)] {
+                for (view, &unmatched) in scores.iter().enumerate() {
+                    let mut others = scores.iter().enumerate().filter(|&(other, _)| other != view && beside(view, other));
+                    if others.all(|(other, &score)| (unmatched, view) < (score, other)) {
+                        naive.push(ViewMatch { view, reversed, unmatched });
+                    }
+                }
+            }
+            naive.sort_by_key(|one| one.unmatched);
+            prop_assert_eq!(&surface.minima::<48>()[..], &naive[..]);
+        }
     }
 }

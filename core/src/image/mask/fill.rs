@@ -301,4 +301,35 @@ mod tests {
         assert_eq!(mask.as_mask().area(), 64 * 4);
         assert!(mask.as_mask().get(2, 1) && mask.as_mask().get(65, 4));
     }
+
+    #[test]
+    fn a_row_is_replaced_word_by_word_and_nothing_beyond_its_last_column() {
+        for width in [1, 31, 32, 33, 64, 70] {
+            let mut words = std::vec![0; words_needed(width, 3)];
+            let mut mask = MaskMut::new(&mut words, width, 3).expect("fits");
+            mask.fill_span(0, 0, width as i64);
+            mask.fill_span(1, 0, 20);
+            let made: [Word; 3] = [0xffff_00ff, 0x8000_0001, 0xdead_beef];
+            let mut seen = std::vec::Vec::new();
+            mask.replace_row(1, |index, word| {
+                seen.push(word);
+                made[index] | word
+            });
+            let first = ((1u64 << width.min(20)) - 1) as Word;
+            assert_eq!(seen.first(), Some(&first));
+            assert_eq!(seen.len(), width.div_ceil(WORD_BITS));
+            mask.replace_row(3, |_, _| Word::MAX);
+            let mask = mask.into_mask();
+            let mut set = width;
+            for column in 0..width {
+                let word = made[column / WORD_BITS] | if column < 32 { first } else { 0 };
+                let expected = word >> (column % WORD_BITS) & 1 == 1;
+                assert_eq!(mask.get(column, 1), expected, "{width} {column}");
+                assert!(mask.get(column, 0) && !mask.get(column, 2));
+                set += usize::from(expected);
+            }
+            // Bits beyond the last column would be counted.
+            assert_eq!(mask.area(), set as u64, "{width}");
+        }
+    }
 }

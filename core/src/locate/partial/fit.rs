@@ -213,6 +213,7 @@ mod tests {
     use crate::camera::Camera;
     use crate::image::contour::{Outline, Point};
     use crate::image::mask::{Mask, MaskMut, words_needed};
+    use proptest::prelude::*;
 
     const SIDE: usize = 256;
     const UNITS: Units = Units {
@@ -271,8 +272,15 @@ mod tests {
 
     /// Calls `look` with the shape known but for `hidden`, and its whole outline as the view.
     fn with_known(hidden: &Mask<'_>, look: impl Fn(&Known<'_>, &OutlinePoints<'_>)) {
-        let words = words();
-        let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+        with_known_of(&words(), hidden, look);
+    }
+
+    fn with_known_of(
+        words: &[u32],
+        hidden: &Mask<'_>,
+        look: impl Fn(&Known<'_>, &OutlinePoints<'_>),
+    ) {
+        let mask = Mask::new(words, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::new(&mask, hidden).expect("one size");
         let (mut own, mut theirs) = (
             [OutlinePoint::default(); 500],
@@ -345,5 +353,112 @@ mod tests {
                 assert_eq!(known.improve(view, &away, 16.0), None);
             });
         }
+    }
+
+    #[test]
+    fn a_place_is_as_far_off_as_along_the_normal_unless_that_leads_past_an_end() {
+        let hidden = hidden(SIDE);
+        let hidden = Mask::new(&hidden, SIDE, SIDE).expect("valid");
+        with_known(&hidden, |known, _| {
+            assert_eq!(known.past_end, 8.0);
+            for along in [-3.0, 0.0, 0.5, 12.0] {
+                for (across, is_past) in [(0.0, false), (7.999, false), (8.001, true), (30.0, true)]
+                {
+                    let distance = libm::hypot(along, across);
+                    let pair = Pair {
+                        arm: [0.0; 2],
+                        normal: [0.0, 1.0],
+                        along,
+                        distance,
+                    };
+                    let expected = if is_past { distance } else { along.abs() };
+                    assert_eq!(known.distance(&pair), expected, "{along} {across}");
+                }
+            }
+        });
+    }
+
+    properties! {
+        /// A step that is too large is cut, each of growth and turn by itself.
+        #[test]
+        fn a_similarity_grows_and_turns_and_shifts_by_what_it_is_moved(
+            factor in (0.2..3.0f64, -1.5..1.5f64),
+            offset in proptest::array::uniform2(-300.0..300.0f64),
+            shift in proptest::array::uniform2(-20.0..20.0f64),
+            grow in -0.5..0.5f64,
+            turn in -0.8..0.8f64,
+        ) {
+            let before = Similarity { factor: [factor.0, factor.1], offset };
+            let after = moved(&before, [shift[0], shift[1], grow, turn]);
+            let cut = |value: f64, most: f64| value.max(-most).min(most);
+            let growth = after.scale() / before.scale();
+            prop_assert!((growth - 1.0 - cut(grow, 0.2)).abs() < 1e-12);
+            let turned = crate::math::wrap(after.angle() - before.angle(), core::f64::consts::TAU);
+            prop_assert!((turned - cut(turn, 0.3)).abs() < 1e-12);
+            prop_assert_eq!(after.offset, [offset[0] + shift[0], offset[1] + shift[1]]);
+        }
+
+        /// How fast a point moves along a normal, by moving it a little both ways.
+        #[test]
+        fn slopes_are_those_of_what_is_moved(
+            factor in (0.2..3.0f64, -1.5..1.5f64),
+            point in proptest::array::uniform2(-100.0..100.0f64),
+            direction in -4.0..4.0f64,
+        ) {
+            let similarity = Similarity { factor: [factor.0, factor.1], offset: [5.0, -7.0] };
+            let (sin, cos) = libm::sincos(direction);
+            let normal = [cos, sin];
+            let pair = Pair { arm: times(similarity.factor, point), normal, along: 0.0, distance: 0.0 };
+            for (k, slope) in pair.slope().into_iter().enumerate() {
+                let along = |step: f64| {
+                    let mut steps = [0.0; 4];
+                    steps[k] = step;
+                    let moved = moved(&similarity, steps);
+                    let arm = times(moved.factor, point);
+                    (0..2).map(|k| (arm[k] + moved.offset[k]) * normal[k]).sum::<f64>()
+                };
+                let difference = (along(1e-4) - along(-1e-4)) / 2e-4;
+                prop_assert!((difference - slope).abs() < 1e-5, "{} {} {}", k, difference, slope);
+            }
+        }
+    }
+
+    /// Of a straight edge all samples of a view that lies beside it are as far off: what of it counts as wrong leaves as much of
+    /// the known outline uncovered.
+    #[test]
+    fn beside_a_straight_edge_disagreement_is_twice_the_square_of_the_distance() {
+        let hidden_words = hidden(SIDE);
+        let nothing = Mask::new(&hidden_words, SIDE, SIDE).expect("valid");
+        // What is hidden from a column on is a mask that is set there.
+        let half = hidden(128);
+        with_known_of(&half, &nothing, |known, view| {
+            let off = |shift: [f64; 2], every: usize| {
+                let offset = shift;
+                let moved = Similarity { offset, ..NOTHING };
+                known.disagreement(view, &moved, 5.0, every, f64::INFINITY)
+            };
+            for every in [1, 2] {
+                for distance in [0.0, 1.0, -2.0, 3.5, -4.9] {
+                    let expected = 2.0 * distance * distance / 25.0;
+                    let found = off([distance, 0.0], every);
+                    assert!((found - expected).abs() < 0.06, "{distance}: {found}");
+                }
+                // Farther than counts, and where nothing is near.
+                for distance in [5.5, -11.0, 40.0] {
+                    let found = off([distance, 0.0], every);
+                    assert!((found - 2.0).abs() < 0.06, "{distance}: {found}");
+                }
+                // A quarter of it beyond the frame tells nothing, and leaves a quarter uncovered.
+                let found = off([0.0, 64.0], every);
+                assert!((found - 0.25).abs() < 0.06, "{found}");
+            }
+            // Turned by half it runs along the edge, its normals the other way.
+            let about = Similarity {
+                factor: [-1.0, 0.0],
+                offset: [0.0; 2],
+            };
+            let found = known.disagreement(view, &about, 5.0, 1, f64::INFINITY);
+            assert!((found - 2.0).abs() < 0.06, "{found}");
+        });
     }
 }

@@ -41,9 +41,9 @@ impl Hypothesis {
         let record = library.record(self.view);
         let [column, row] = plane.frame(self.similarity.offset);
         let scale = 1.0 / self.similarity.scale();
-        let area = f64::from(info.canonical.area()) / (scale * scale * plane.aspect);
         let form = CanonicalForm {
-            area_px: area as u64,
+            // A pose follows from the scale alone.
+            area_px: 0,
             centroid: Point::new(column, row),
             angle: self.similarity.angle(),
             scale,
@@ -107,6 +107,8 @@ pub(super) fn keep<const K: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canonical::CanonicalSpec;
+    use crate::library::fake::plain_library;
     use crate::math::degrees;
     use proptest::prelude::*;
 
@@ -173,6 +175,72 @@ mod tests {
         }
         let kept: std::vec::Vec<_> = list.iter().map(|h| (h.view, h.score)).collect();
         assert_eq!(kept, [(3, 0.3), (1, 0.4)]);
+    }
+
+    #[test]
+    fn views_at_the_border_of_a_grid_are_told_where_there_are_others_beside_them() {
+        let spec = CanonicalSpec::new(64, 900).expect("possible");
+        let camera = Camera::new(640, 480, [900.0; 2], [320.0, 240.0]).expect("valid");
+        let plane = Plane::new(640, 480, camera.aspect());
+        let sizes = (1..5).flat_map(|columns| (1..5).map(move |rows| (columns, rows)));
+        for (columns, rows) in sizes {
+            let views = std::vec![std::vec![1; spec.words_needed()]; columns * rows];
+            let bytes = plain_library(&views, columns, spec);
+            let library = Library::open(&bytes).expect("valid");
+            for view in 0..columns * rows {
+                let hypothesis = Hypothesis {
+                    view,
+                    similarity: Similarity {
+                        factor: [1.0, 0.0],
+                        offset: [0.0; 2],
+                    },
+                    score: 0.0,
+                };
+                let located = hypothesis.locate(&camera, &library, &plane);
+                assert_eq!((located.view, located.by_pieces), (view, true));
+                let (x, y) = (view % columns, view / columns);
+                let at_end = |at: usize, count: usize| count > 1 && (at == 0 || at == count - 1);
+                let at_border = at_end(x, columns) || at_end(y, rows);
+                assert_eq!(located.fine.at_border, at_border, "{columns} {rows} {view}");
+            }
+        }
+    }
+
+    /// The library's views are of the reference point itself, a thousand mm away, for a focal length of 100 pixels.
+    #[test]
+    fn a_hypothesis_stands_for_a_pose_by_similar_triangles() {
+        let spec = CanonicalSpec::new(64, 900).expect("possible");
+        let bytes = plain_library(&[std::vec![1; spec.words_needed()]], 1, spec);
+        let library = Library::open(&bytes).expect("valid");
+        let camera = Camera::new(640, 480, [900.0; 2], [330.0, 236.0]).expect("valid");
+        let plane = Plane::new(640, 480, camera.aspect());
+        for (scale, turn, offset) in [
+            (9.0, 0.0, [10.0, 4.0]),
+            (18.0, 0.7, [10.0, 4.0]),
+            (6.0, -2.0, [-80.0, 4.0]),
+            (9.0, 1.0, [10.0, 124.0]),
+        ] {
+            let (sin, cos) = libm::sincos(turn);
+            let similarity = Similarity {
+                factor: [scale * cos, scale * sin],
+                offset,
+            };
+            let hypothesis = Hypothesis {
+                similarity,
+                ..Hypothesis::default()
+            };
+            let Located { pose, .. } = hypothesis.locate(&camera, &library, &plane);
+            // To the right of the principal point and above it, focal lengths.
+            let ray = [(offset[0] - 10.0) / 900.0, (offset[1] - 4.0) / 900.0];
+            let stretch = libm::pow(1.0 + ray[0] * ray[0] + ray[1] * ray[1], 0.25);
+            // As large as in the library where a view's pixel, of a hundredth of a radian, is nine of the camera's.
+            let depth = 1000.0 * 9.0 / scale * stretch;
+            let expected = [depth * ray[0], depth * ray[1], -depth];
+            for (k, expected) in expected.into_iter().enumerate() {
+                let off = pose.translation[k] - expected;
+                assert!(off.abs() < 1e-6, "{scale} {offset:?}: {off} along axis {k}");
+            }
+        }
     }
 
     #[test]

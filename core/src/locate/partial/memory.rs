@@ -106,3 +106,44 @@ impl PartialMemory<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canonical::CanonicalSpec;
+    use crate::library::fake::plain_library;
+
+    /// By hand: of hypotheses too few would be lost without a word.
+    #[test]
+    fn each_length_is_what_frame_library_and_model_take() {
+        let spec = CanonicalSpec::new(64, 900).expect("possible");
+        let views = std::vec![std::vec![1; spec.words_needed()]; 54];
+        let bytes = plain_library(&views, 9, spec);
+        let library = Library::open(&bytes).expect("valid");
+        let vertices = [
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [2.0; 3],
+        ];
+        let model = Model::from_triangles(&vertices, &[[0, 1, 2]]).expect("valid");
+        for (width, height, lines) in [(320, 240, 560), (33, 20, 128)] {
+            let camera = Camera::new(width, height, [500.0; 2], [9.0; 2]).expect("valid");
+            let needs = partial_needed(&library, &camera, &model);
+            let expected = PartialNeeds {
+                // Rows of whole words, and two canonical frames.
+                words: width.div_ceil(32) * height + 2 * (2 * 64),
+                sides: 8 * lines,
+                points: 4096 + 512,
+                cells: FIELD_CELLS,
+                // Columns and rows of 512 samples at 24 scales; of a view those twice, and two sums.
+                numbers: 2 * 512 * 24 + 6 * 512,
+                // Three of each view: of nine columns and six rows a degree apart, every fourth.
+                hypotheses: 3 * (3 * 2),
+                projected: 5,
+            };
+            assert_eq!(needs, expected);
+        }
+    }
+}

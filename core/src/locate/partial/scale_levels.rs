@@ -207,6 +207,14 @@ mod tests {
         }
     }
 
+    #[test]
+    fn levels_that_reach_just_to_the_end_are_no_farther_apart() {
+        let most = (1..LEVELS).fold(1.0, |scale, _| scale * RATIO);
+        assert_eq!(ratio(1.0, most), RATIO);
+        assert_eq!(ratio(1.0, most.next_up()), RATIO * 1.01);
+        assert_eq!(ratio(3.0, 2.0), RATIO);
+    }
+
     /// A rectangle of 96 by 40 pixels at the left border of its frame.
     fn outline(points: &mut [OutlinePoint]) -> OutlinePoints<'_> {
         let mut words = [0u32; 4 * 64];

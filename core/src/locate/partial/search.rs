@@ -274,3 +274,39 @@ fn repeated<'n>(piece: &Piece<'_>, numbers: &'n mut [f32]) -> Option<Samples<'n>
     }
     Some(Samples { x, y })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_view_of_an_axis_is_far_from_the_coarse_grid() {
+        let steps = [0.3, 0.5, 1.0, 1.5, 2.0, 2.5, 3.9, 4.1, 8.0, 15.0];
+        for (step, count) in steps
+            .iter()
+            .flat_map(|&step| (1..50).map(move |n| (step, n)))
+        {
+            let axis = ViewAxis {
+                first: -7.0,
+                step,
+                count,
+            };
+            let (every, first) = coarse(&axis);
+            // Of whole steps that which is nearest to four degrees.
+            let off = |every: usize| (every as f64 * step - 4.0).abs();
+            assert!(every == 1 || off(every) <= off(every - 1));
+            assert!(off(every) <= off(every + 1));
+            let places: std::vec::Vec<usize> = (first..count).step_by(every).collect();
+            for view in 0..count {
+                let nearest = places.iter().map(|place| place.abs_diff(view)).min();
+                assert!(
+                    nearest.is_some_and(|away| 2 * away <= every),
+                    "{step} {count}"
+                );
+            }
+            // As far from one end as from the other, but for a step.
+            let last = places.last().map_or(0, |last| count - 1 - last);
+            assert!(first.abs_diff(last) <= 1, "{step} {count}");
+        }
+    }
+}

@@ -73,3 +73,37 @@ impl Units {
         (low / FARTHEST, high / NEAREST)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canonical::CanonicalSpec;
+    use crate::library::fake::plain_library;
+
+    /// By hand: of views of a focal length of 100 pixels, whose scales are 1, 2, 3 and 4.
+    #[test]
+    fn lengths_go_with_the_size_of_a_view_in_the_frame() {
+        // A quarter of the usual area: half as long.
+        let spec = CanonicalSpec::new(128, 3750).expect("possible");
+        let views = std::vec![std::vec![1; spec.words_needed()]; 4];
+        let bytes = plain_library(&views, 2, spec);
+        let library = Library::open(&bytes).expect("valid");
+        let camera = Camera::new(640, 480, [900.0, 800.0], [320.0, 240.0]).expect("valid");
+        let units = Units::new(&library, &camera);
+        assert_eq!(
+            (units.focal, units.spacing, units.view_reach),
+            (900.0, 3.0, 1)
+        );
+        // Nine pixels of the frame for one of a view's camera; of the view in the middle three canonical ones.
+        assert!((units.pixel - 0.5 * 9.0 / 3.0).abs() < 1e-12);
+        let lengths = [units.narrow, units.wide, units.apart];
+        let expected = [5.0, 12.0, 15.0].map(|length| length * units.pixel);
+        assert_eq!(lengths, expected);
+        for (view, scale) in [(0, 9.0), (1, 4.5), (2, 3.0), (3, 2.25)] {
+            assert!((units.nominal(&library, view) - scale).abs() < 1e-12);
+        }
+        let (low, high) = units.scales(&library);
+        assert!((low - 2.25 / FARTHEST).abs() < 1e-12);
+        assert!((high - 9.0 / NEAREST).abs() < 1e-12);
+    }
+}

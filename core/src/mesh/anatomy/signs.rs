@@ -212,3 +212,6 @@ fn directed(axis: &Vector3, difference: f64, size: f64) -> (Vector3, bool) {
     let sign = if difference < 0.0 { -1.0 } else { 1.0 };
     (scale(axis, sign), difference.abs() > TOLD_PART * size)
 }
+
+#[cfg(test)]
+mod tests;

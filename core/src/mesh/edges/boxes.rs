@@ -247,3 +247,6 @@ fn half_above(number: f32) -> u16 {
 fn whole(half: u16) -> f32 {
     f32::from_bits(u32::from(half) << 16)
 }
+
+#[cfg(test)]
+mod tests;

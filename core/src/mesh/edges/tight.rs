@@ -277,3 +277,28 @@ impl TightGroup<'_> {
         (highest as usize) < self.vertices
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    properties! {
+        #[test]
+        fn four_steps_are_bytes_where_none_of_them_is_zero(
+            steps in proptest::array::uniform4(prop_oneof![0..3u8, 126..130u8, 254..=255u8, any::<u8>()])
+        ) {
+            prop_assert_eq!(are_bytes(&steps), !steps.contains(&0));
+        }
+    }
+
+    #[test]
+    fn so_many_vertices_take_no_more_bits_than_their_last_place() {
+        for vertices in 1..=MOST_VERTICES {
+            let bits = bits_for(vertices);
+            let places = 1 << bits;
+            assert!(places >= vertices && (bits == 4 || places / 2 < vertices));
+            assert_eq!(mask(bits), places as u32 - 1);
+        }
+    }
+}

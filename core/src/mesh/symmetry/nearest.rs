@@ -297,6 +297,30 @@ mod tests {
         }
     }
 
+    properties! {
+        /// Ends are whole numbers, and so are the places that are nearest to each other.
+        #[test]
+        fn boxes_are_as_far_apart_as_their_nearest_places(
+            ends in proptest::array::uniform4(proptest::array::uniform3(-5..5i32)),
+        ) {
+            let [a, b, c, d] = ends.map(|end| end.map(f64::from));
+            let mut naive = 0;
+            for k in 0..3 {
+                let between = |a: [i32; 3], b: [i32; 3]| a[k].min(b[k])..=a[k].max(b[k]);
+                let places = between(ends[0], ends[1])
+                    .flat_map(|one| between(ends[2], ends[3]).map(move |other| one.abs_diff(other)));
+                naive += places.min().map_or(0, |gap| gap * gap);
+            }
+            let (one, other) = (Box3::round(&[a, b]), Box3::round(&[c, d]));
+            prop_assert_eq!(one.gap_squared(&other), f64::from(naive));
+            prop_assert_eq!(other.gap_squared(&one), f64::from(naive));
+            // What is nearer than the farthest foot may gain, what is as near may not.
+            let cluster = |reach: f64| Cluster { bounds: one, reach };
+            prop_assert!(!cluster(f64::from(naive)).may_gain(&other));
+            prop_assert!(cluster(f64::from(naive) + 0.5).may_gain(&other));
+        }
+    }
+
     #[test]
     fn a_triangle_without_area_is_its_edge() {
         let line = [[0.0; 3], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];

@@ -162,3 +162,90 @@ fn area(&[a, b, c]: &[Vector3; 3]) -> f64 {
     let (ab, ac) = (subtract(&b, &a), subtract(&c, &a));
     norm(&cross(&ab, &ac)) / 2.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dot;
+    use crate::mesh::edges::fake::add_box;
+    use std::vec::Vec;
+
+    /// A box of 60 x 20 x 40 mm about a place far from the origin.
+    fn with_samples(look: impl Fn(&Samples)) {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        let (low, high) = ([470.0, -10.0, 80.0], [530.0, 10.0, 120.0]);
+        add_box(low, high, &mut vertices, &mut triangles);
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        look(&Samples::new(&mesh).expect("it has an area"));
+    }
+
+    const HALVES: Vector3 = [30.0, 10.0, 20.0];
+
+    #[test]
+    fn moments_of_a_box_are_those_of_its_six_sides() {
+        with_samples(|samples| {
+            let off = subtract(&samples.origin, &[500.0, 0.0, 100.0]);
+            assert!(norm(&off) < 1e-9);
+            // Two sides at half its width, and four that are as a rod along it.
+            let areas = [20.0 * 40.0, 60.0 * 40.0, 60.0 * 20.0];
+            let whole: f64 = areas.iter().sum();
+            let square = |k: usize| {
+                let ends = areas[k] * HALVES[k] * HALVES[k];
+                (ends + (whole - areas[k]) * HALVES[k] * HALVES[k] / 3.0) / whole
+            };
+            // Longest first: along x, along z, along y.
+            for (at, axis) in [0, 2, 1].into_iter().enumerate() {
+                assert!((samples.spread[at] - square(axis)).abs() < 1e-6);
+                assert!((samples.axes[at][axis].abs() - 1.0).abs() < 1e-9);
+            }
+            let size = square(0) + square(1) + square(2);
+            assert!((samples.size * samples.size - size).abs() < 1e-6);
+        });
+    }
+
+    #[test]
+    fn samples_lie_on_the_surface_as_many_on_a_side_as_its_area_asks_for() {
+        with_samples(|samples| {
+            let mut counts = [[0.0; 2]; 3];
+            for (point, normal) in samples.points.iter().zip(&samples.normals) {
+                let axis = longest([*normal, [0.0; 3]].iter());
+                assert!((normal[axis].abs() - 1.0).abs() < 1e-9);
+                assert!((point[axis].abs() - HALVES[axis]).abs() < 1e-9);
+                assert!((0..3).all(|k| point[k].abs() < HALVES[k] + 1e-9));
+                counts[axis][usize::from(point[axis] > 0.0)] += 1.0;
+            }
+            // Of 8800 square mm each side has its part.
+            for (counts, area) in counts.iter().zip([800.0, 2400.0, 1200.0]) {
+                for count in counts {
+                    assert!(
+                        (count - 256.0 * area / 8800.0f64).abs() <= 1.0,
+                        "{counts:?}"
+                    );
+                }
+            }
+        });
+    }
+
+    /// Boxes around neighbours keep most of a surface from most of the points.
+    #[test]
+    fn neighbours_in_the_list_lie_near_each_other() {
+        with_samples(|samples| {
+            for length in [GROUP, BLOCK] {
+                let reach: f64 = samples
+                    .points
+                    .chunks_exact(length)
+                    .map(|block| {
+                        let middle = block.iter().fold([0.0; 3], |sum, point| add(&sum, point));
+                        let middle = scale(&middle, 1.0 / length as f64);
+                        let off = block.iter().map(|point| subtract(point, &middle));
+                        off.map(|off| dot(&off, &off)).sum::<f64>()
+                    })
+                    .sum();
+                // Of pieces of a surface the square of their size falls as their number rises, about so.
+                let alone = samples.size * samples.size * SAMPLES as f64;
+                let pieces = (SAMPLES / length) as f64;
+                assert!(reach < 2.5 * alone / pieces, "{length}: {reach} of {alone}");
+            }
+        });
+    }
+}

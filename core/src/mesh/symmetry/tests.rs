@@ -322,3 +322,94 @@ fn a_reflection_undoes_itself_and_keeps_the_plane() {
     assert!(norm(&subtract(&back, &point)) < 1e-12);
     assert_eq!(plane.reflect(&plane.point), plane.point);
 }
+
+/// `spread` in place of its own.
+fn samples(spread: [f64; 3]) -> Samples {
+    let body = tray();
+    let mesh = Mesh::new(&body.vertices, &body.triangles).expect("a valid body");
+    let samples = Samples::new(&mesh).expect("it has an area");
+    Samples { spread, ..samples }
+}
+
+#[test]
+fn directions_between_axes_are_tried_where_their_moments_are_nearly_equal() {
+    let pairs = [(0, 1), (1, 2), (0, 2)];
+    for (spread, expected) in [
+        ([10.0, 5.9, 3.5], [false, false, false]),
+        ([10.0, 6.1, 3.6], [true, false, false]),
+        ([10.0, 5.9, 3.6], [false, true, false]),
+        ([10.0, 7.0, 5.0], [true, true, false]),
+        ([10.0, 7.0, 6.1], [true, true, true]),
+    ] {
+        let samples = samples(spread);
+        let starts = starts(&samples);
+        assert_eq!(starts[..3], samples.axes);
+        // By their parts along the axes: between two of them the third is none.
+        let parts = |start: &Vector3| samples.axes.map(|axis| dot(&axis, start));
+        let others: List<Vector3> = starts[3..].iter().map(parts).collect();
+        for ((a, b), expected) in pairs.into_iter().zip(expected) {
+            let between = others.iter().filter(|parts| {
+                let length = parts[a] * parts[a] + parts[b] * parts[b];
+                (length - 1.0).abs() < 1e-9
+            });
+            let mut angles: List<f64> = between
+                .map(|parts| crate::math::degrees(crate::math::atan2(parts[b], parts[a])))
+                .collect();
+            angles.sort_by(f64::total_cmp);
+            assert_eq!(angles.len(), if expected { 6 } else { 0 }, "{spread:?}");
+            let eighths = [1.0, 2.0, 3.0, 5.0, 6.0, 7.0].map(|k| 22.5 * k);
+            let off = angles.iter().zip(eighths).map(|(a, b)| (a - b).abs());
+            assert!(off.into_iter().all(|off| off < 1e-9), "{angles:?}");
+        }
+        // Diagonals of a body whose three moments are nearly equal, each with its opposite once.
+        let third = 1.0 / crate::math::sqrt(3.0);
+        let diagonals: List<&Vector3> = others
+            .iter()
+            .filter(|parts| parts.iter().all(|part| (part.abs() - third).abs() < 1e-9))
+            .collect();
+        assert_eq!(diagonals.len(), if expected[2] { 4 } else { 0 });
+        for (k, a) in diagonals.iter().enumerate() {
+            assert!(diagonals[..k].iter().all(|b| dot(a, b).abs() < 0.5));
+        }
+    }
+}
+
+#[test]
+fn tangents_are_perpendicular_to_a_normal_and_to_each_other() {
+    let ways = [-1.0, -1e-9, 0.0, 1e-9, 0.4, 1.0];
+    let normals = ways
+        .into_iter()
+        .flat_map(|x| ways.map(|y| [x, y]))
+        .flat_map(|[x, y]| ways.map(|z| [x, y, z]));
+    for normal in normals.filter(|normal| norm(normal) > 0.1) {
+        let normal = scale(&normal, 1.0 / norm(&normal));
+        let (first, second) = fit::tangents(&normal);
+        for (a, b, product) in [
+            (&first, &first, 1.0),
+            (&second, &second, 1.0),
+            (&first, &second, 0.0),
+            (&first, &normal, 0.0),
+            (&second, &normal, 0.0),
+        ] {
+            assert!((dot(a, b) - product).abs() < 1e-12, "{normal:?}");
+        }
+    }
+}
+
+#[test]
+fn a_part_is_nearly_symmetric_where_one_of_its_planes_deviates_by_less_than_a_hundredth_of_its_radius()
+ {
+    let body = cuboid([-30.0, -20.0, -60.0], [30.0, 20.0, 60.0]);
+    let model = Model::from_triangles(&body.vertices, &body.triangles).expect("a valid body");
+    let plane = |deviation_mm: f64| SymmetryPlane {
+        point: [0.0; 3],
+        normal: [1.0, 0.0, 0.0],
+        deviation_mm,
+    };
+    // Its corners are 70 mm from its middle.
+    let (below, above) = (plane(0.6999), plane(0.7001));
+    assert!(!is_nearly_symmetric(&model, &[]));
+    assert!(!is_nearly_symmetric(&model, &[above, plane(5.0)]));
+    assert!(is_nearly_symmetric(&model, &[below]));
+    assert!(is_nearly_symmetric(&model, &[above, below]));
+}

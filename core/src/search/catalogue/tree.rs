@@ -123,3 +123,70 @@ pub(super) fn corners(grid: &ViewGrid) -> impl Iterator<Item = usize> + use<> {
             .map(move |x| grid.view(x, y))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers nodes as they are come to, the nearer child and all of its own first.
+    fn check(node: &Node, next: &mut usize, leaves: &mut usize) {
+        assert_eq!(node.number, *next);
+        *next += 1;
+        if node.is_leaf() {
+            assert_eq!((node.first, node.end), (*leaves, *leaves + 1));
+            *leaves += 1;
+            return;
+        }
+        let [a, b] = node.children();
+        assert_eq!((a.first, a.end, b.end), (node.first, b.first, node.end));
+        let [one, other] = [a, b].map(|child| child.end - child.first);
+        assert!(one > 0 && other > 0 && one.abs_diff(other) <= 1);
+        check(&a, next, leaves);
+        check(&b, next, leaves);
+    }
+
+    #[test]
+    fn nodes_are_numbered_in_the_order_in_which_they_are_come_to() {
+        for count in 1..40 {
+            let all = std::vec![Leaf::default(); count];
+            let tree = Tree {
+                leaves: &all,
+                boxes: &[],
+                places: &[],
+                common: &[],
+            };
+            let (mut next, mut leaves) = (0, 0);
+            check(&tree.root(), &mut next, &mut leaves);
+            assert_eq!((next, leaves), (2 * count - 1, count));
+        }
+    }
+
+    #[test]
+    fn each_view_of_a_grid_lies_in_one_patch_about_its_middle() {
+        let axis = |count| crate::library::ViewAxis {
+            first: 0.0,
+            step: 1.0,
+            count,
+        };
+        for (columns, rows) in (1..8).flat_map(|columns| (1..8).map(move |rows| (columns, rows))) {
+            let grid = ViewGrid {
+                x: axis(columns),
+                y: axis(rows),
+            };
+            let mut seen = std::vec![0; grid.views()];
+            for corner in corners(&grid) {
+                let leaf = Leaf {
+                    corner: corner as u32,
+                    ..Leaf::default()
+                };
+                let (x, y) = grid.place(leaf.middle(&grid));
+                for view in leaf.rows(&grid).flatten() {
+                    seen[view] += 1;
+                    let (own_x, own_y) = grid.place(view);
+                    assert!(own_x.abs_diff(x) <= 1 && own_y.abs_diff(y) <= 1);
+                }
+            }
+            assert!(seen.into_iter().all(|times| times == 1));
+        }
+    }
+}

@@ -167,3 +167,38 @@ fn memory_of_a_wrong_length_is_refused() {
         Some(MatchError::Memory(TooLittleMemory { what: "scores", .. }))
     ));
 }
+
+properties! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// What has been counted is known exactly; what has not, by its sketch to lie above what most views are compared with.
+    #[test]
+    fn a_bound_is_the_score_itself_where_that_has_been_counted((views, silhouette) in cases()) {
+        let bytes = compact_library(&plain_library(&views, COLUMNS, spec()));
+        let library = Library::open(&bytes).expect("valid");
+        let mut rotated = silhouette.clone();
+        crate::canonical::reverse(&silhouette, &mut rotated);
+        let mut prepared = std::vec![0; query_bytes_needed(&spec())];
+        let query = Query::new(&spec(), &silhouette, &rotated, &mut prepared).expect("right lengths");
+        let memory = ViewSearchMemory {
+            bounds: &mut [0; scores_needed(VIEWS)],
+            sketches: &mut std::vec![0; search_bytes_needed(&spec())],
+        };
+        let mut search = ViewSearch::new(&library, &query, &Kernels::PORTABLE, memory).expect("right lengths");
+        for (view, bits) in views.iter().enumerate() {
+            for (reversed, silhouette) in [(false, &silhouette), (true, &rotated)] {
+                let naive: u32 = bits.iter().zip(silhouette).map(|(a, b)| (a ^ b).count_ones()).sum();
+                // Set pixels of all of a view differ by no more than those of its blocks together.
+                let [own, theirs] = [bits, silhouette].map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
+                let bound = search.at_least(view, reversed);
+                // A full block counts as one with a pixel less.
+                prop_assert!(bound + 64 >= own.abs_diff(theirs) && bound <= naive);
+                prop_assert_eq!(search.score(view, reversed), naive);
+                prop_assert_eq!(search.at_least(view, reversed), naive);
+            }
+        }
+        // Beyond the last view there is none that could be better.
+        prop_assert_eq!(search.at_least(VIEWS, false), u32::MAX);
+        prop_assert_eq!(search.at_least(VIEWS, true), u32::MAX);
+    }
+}
