@@ -67,9 +67,9 @@ mod tests {
                 let tangents = [x.abs(), y.abs()].map(|off| off / -z);
                 prop_assert!(tangents.iter().zip(reach.aside).all(|(&own, most)| own <= most + 1e-9));
             }
-            let mut bent = pose;
-            bent.rotation[0] = bent.rotation[0].map(|x| 1.001 * x);
-            prop_assert!(!Reach::of(&bounds, &bent).in_front);
+            let mut stretched = pose;
+            stretched.rotation[0] = stretched.rotation[0].map(|x| 1.001 * x);
+            prop_assert!(!Reach::of(&bounds, &stretched).in_front);
         }
     }
 }
