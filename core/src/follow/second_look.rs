@@ -236,17 +236,12 @@ mod tests {
     fn found_again(off_deg: f64, misfit_px: f64) -> (Option<FramePose>, Pose) {
         use crate::finder::fake::{SIDE, camera, crank, grey, placed};
         use crate::image::frame::Frame;
-        use crate::refine::{Polarity, RefineBuffers};
+        use crate::refine::RefineBuffers;
         let (model, camera) = (crank(), camera());
         let right = placed([20.0, 30.0, 5.0], [2.0, -3.0, 0.0]);
         let pixels = grey(&model, &camera, &right);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-        let image = ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
+        let image = ImageTarget::dark(&frame);
         let mut own = turned(0.0, misfit_px);
         own.pose = placed([20.0, 30.0, 5.0 + off_deg], [2.0, -3.0, 0.0]);
         own.contrast.step = 160.0;

@@ -74,7 +74,7 @@ mod tests {
     use crate::finder::fake::{SIDE, camera, crank, grey, placed};
     use crate::follow::frame_pose::From;
     use crate::image::frame::Frame;
-    use crate::refine::{Polarity, RefineBuffers};
+    use crate::refine::RefineBuffers;
 
     #[test]
     fn a_start_leads_nowhere_that_leaves_more_than_is_allowed() {
@@ -82,12 +82,7 @@ mod tests {
         let right = placed([20.0, 30.0, 5.0], [2.0, -3.0, 0.0]);
         let pixels = grey(&model, &camera, &right);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-        let image = ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
+        let image = ImageTarget::dark(&frame);
         let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
         let subject = Subject::new(&model, &[], &camera);
         let mut memory = buffers.borrow(&model, &camera);

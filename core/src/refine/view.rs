@@ -141,6 +141,19 @@ pub struct ImageTarget<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct NoFrame(core::convert::Infallible);
 
+#[cfg(all(test, feature = "frames"))]
+impl<'a> ImageTarget<'a> {
+    /// A frame in which metal is dark and of whose film nothing is known.
+    pub(crate) fn dark(frame: &'a dyn Grey) -> Self {
+        Self {
+            frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        }
+    }
+}
+
 impl ImageTarget<'_> {
     /// The curve that shows the frame as it is displayed, metal dark.
     pub(super) fn display(&self) -> DisplayCurve {

@@ -4,7 +4,7 @@ use crate::image::frame::Frame;
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
 use crate::mesh::OwnedModel;
-use crate::refine::{ImageTarget, Polarity, RefineBuffers};
+use crate::refine::{ImageTarget, RefineBuffers};
 
 /// A look at something turned by so many degrees about the vertical, where so much remains.
 fn at(deg: f64, loss: f64) -> Refined {
@@ -125,12 +125,7 @@ fn of_a_grey_frame_it_is_not_known_what_a_mirror_image_covers() {
     let pose = placed([20.0, 30.0, 0.0], [0.0; 3]);
     let pixels = grey(&model, &camera, &pose);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-    let image = ImageTarget {
-        frame: &frame,
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: None,
-    };
+    let image = ImageTarget::dark(&frame);
     let view = CameraView::only(&camera, image);
     let turned = placed([20.0, 30.0, 90.0], [0.0; 3]);
     let (mut buffers, model) = (RefineBuffers::default(), model.as_model());

@@ -172,21 +172,13 @@ fn what_was_seen_is_an_outline_where_no_view_is_a_grey_frame() {
     use crate::image::frame::Frame;
     use crate::image::mask::Mask;
     use crate::image::silhouette::Silhouette;
-    use crate::refine::{ImageTarget, Polarity};
+    use crate::refine::ImageTarget;
     let (model, camera, pose) = (crank(), camera(), placed([0.0; 3], [0.0; 3]));
     let (words, pixels) = (drawn(&model, &camera, &pose), grey(&model, &camera, &pose));
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
     let outline = CameraView::only(&camera, Silhouette::from(&mask));
-    let image = CameraView::only(
-        &camera,
-        ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        },
-    );
+    let image = CameraView::only(&camera, ImageTarget::dark(&frame));
     assert!(is_outline(&[outline]) && is_outline(&[outline; 2]));
     assert!(
         !is_outline(&[image]) && !is_outline(&[outline, image]) && !is_outline(&[image, outline])

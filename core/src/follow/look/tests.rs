@@ -3,7 +3,7 @@ use crate::finder::fake::{SIDE, camera, crank, grey, placed};
 use crate::follow::fake::turned;
 use crate::image::frame::Frame;
 use crate::math::{norm, subtract};
-use crate::refine::{Polarity, RefineBuffers};
+use crate::refine::RefineBuffers;
 use std::vec;
 
 /// What is usual where one is looked for.
@@ -17,12 +17,7 @@ const USUAL: Usual = Usual {
 fn search<T>(act: impl FnOnce(&Search<'_>) -> T) -> T {
     let (model, camera, pixels) = (crank(), camera(), vec![0u8; SIDE * SIDE]);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-    let image = ImageTarget {
-        frame: &frame,
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: None,
-    };
+    let image = ImageTarget::dark(&frame);
     let model = model.as_model();
     act(&Search {
         subject: &Subject::new(&model, &[], &camera),
@@ -194,12 +189,7 @@ fn beside_a_pose_lie_four_turned_out_of_the_plane_and_two_nearer_and_farther() {
 fn seen(pixels: &[u8], expected: &Pose) -> Looked {
     let (model, camera) = (crank(), camera());
     let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("valid");
-    let image = ImageTarget {
-        frame: &frame,
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: None,
-    };
+    let image = ImageTarget::dark(&frame);
     let usual = Usual {
         misfit_px: 0.3,
         step: 160.0,

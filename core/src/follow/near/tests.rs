@@ -63,12 +63,7 @@ properties! {
     ) {
         let pixels = plate(shift, turn_deg);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-        let image = ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
+        let image = ImageTarget::dark(&frame);
         let outline = outline();
         let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
         let start = Place { score: f64::MIN, out: [0.0; 2], turn_deg: 0.0, shift: [0.0; 2] };
@@ -90,7 +85,7 @@ properties! {
     ) {
         let pixels = plate(plate_at, plate_deg);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-        let image = ImageTarget { frame: &frame, unknown: None, polarity: Polarity::DarkImplant, film: None };
+        let image = ImageTarget::dark(&frame);
         let outline = outline();
         let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
         let turned = outline.turned(radians(turn_deg));
@@ -178,7 +173,7 @@ properties! {
         let settled = |shift: [f64; 2], turn_deg: f64| {
             let pixels = plate([shift[0] + 1.4, shift[1] - 1.1], turn_deg + 1.0);
             let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-            let image = ImageTarget { frame: &frame, unknown: None, polarity: Polarity::DarkImplant, film: None };
+            let image = ImageTarget::dark(&frame);
             let outline = outline();
             let sliding = Sliding { outline: &outline, image: &image, step: 160.0 };
             sliding.settled(place(f64::MIN, shift, turn_deg, [0.0; 2]))
@@ -258,12 +253,7 @@ fn the_best_place_near_an_expected_pose_is_where_the_part_is_seen() {
         let right = seen.pose(subject, &expected);
         let pixels = fake::grey(&fake::crank(), subject.camera, &right);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-        let image = ImageTarget {
-            frame: &frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
+        let image = ImageTarget::dark(&frame);
         let found = near_poses(subject, &image, &expected, 18.0, 160.0, memory).expect("in front");
         assert!(!found.is_empty() && found[0].0 > 0.9, "{found:?}");
         let middle = subject.model.bounds().centre;
@@ -288,12 +278,7 @@ fn a_turn_out_of_the_plane_is_one_about_x_and_y() {
 fn too_little_of_an_outline_has_no_score() {
     let pixels = plate([0.0; 2], 0.0);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
-    let image = ImageTarget {
-        frame: &frame,
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: None,
-    };
+    let image = ImageTarget::dark(&frame);
     let outline = outline();
     let sliding = Sliding {
         outline: &outline,

@@ -5,6 +5,8 @@ use super::{
     PackedEdges, PackedRim, RimEdge, link, link_needed, pack_edges, packed_needed, tightened,
 };
 use crate::mesh::{Mesh, Model, SurfaceMark};
+use crate::pose::{EulerPose, Pose};
+use proptest::prelude::*;
 use std::vec;
 use std::vec::Vec;
 
@@ -163,4 +165,20 @@ pub(crate) fn add_box(
         let sides = [[a, b, c], [a, c, d]];
         triangles.extend(sides.map(|side| side.map(|corner| first + corner)));
     }
+}
+
+/// Poses of any turn, moved by up to so much along each axis, mm.
+pub(crate) fn placed_within(mm: f64) -> impl Strategy<Value = Pose> {
+    let angle = -180.0..180.0f64;
+    let shift = proptest::array::uniform3(-mm..mm);
+    (angle.clone(), -90.0..90.0f64, angle, shift).prop_map(|(z, x, y, [right, up, away])| {
+        Pose::from(EulerPose {
+            x_mm: right,
+            y_mm: up,
+            z_mm: away,
+            z_rot_deg: z,
+            x_rot_deg: x,
+            y_rot_deg: y,
+        })
+    })
 }
