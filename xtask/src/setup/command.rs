@@ -3,16 +3,15 @@
 //! None of them gets our standard input: cargo hands it on to a `rustc -`, which would take it for source.
 
 use std::ffi::OsStr;
-use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 
-use super::failed::Failed;
+use super::ended::{self, Told};
 use super::telling;
-use crate::output::{self, say};
+use crate::output;
 
 /// The first of these names that is an executable file on the PATH.
 pub(crate) fn find(names: &[&str]) -> Option<PathBuf> {
@@ -73,46 +72,31 @@ pub(crate) fn run(command: &mut Command) -> Result<()> {
 
 /// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
 pub(crate) fn output(command: &mut Command) -> Result<String> {
-    let output = command
-        .stdin(Stdio::null())
-        .output()
-        .with_context(|| format!("cannot start {}", shown(command)))?;
-    if !output.status.success() {
-        let errors = String::from_utf8_lossy(&output.stderr);
-        bail!(
-            "{} failed ({}): {}",
-            shown(command),
-            output.status,
-            last_lines(&errors, 5)
-        );
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    let told = quietly(command, None)?;
+    said(command, told)
 }
 
-/// What a command that has ended wrote.
-pub(crate) struct Told {
-    pub success: bool,
-    /// To standard output.
-    pub output: String,
-    /// To standard error, as far as it was kept.
-    pub errors: String,
+/// Runs a command quietly for at most `limit` and returns its standard output; one that takes longer is ended.
+pub(crate) fn output_within(limit: Duration, command: &mut Command) -> Result<String> {
+    let told = quietly(command, Some(limit))?;
+    said(command, told)
 }
 
-impl Told {
-    /// An error that says what failed, with the lines that tell by what.
-    pub(crate) fn or_failed(&self, what: &str, lines_of: fn(&str) -> Vec<String>) -> Result<()> {
-        if self.success {
-            return Ok(());
-        }
-        let what = format!("{what} failed");
-        let lines = lines_of(&telling::without_colours(&self.all()));
-        Err(Failed { what, lines }.into())
+fn said(command: &Command, told: Told) -> Result<String> {
+    if let Some(how) = told.given_up {
+        bail!("{} {how}", shown(command));
     }
+    if !told.success {
+        let errors = last_lines(&told.errors, 5);
+        bail!("{} failed: {errors}", shown(command));
+    }
+    Ok(told.output)
+}
 
-    /// Both, one after the other.
-    pub(crate) fn all(&self) -> String {
-        format!("{}{}", self.output, self.errors)
-    }
+/// Runs a command and keeps both its outputs without showing them.
+pub(crate) fn quietly(command: &mut Command, limit: Option<Duration>) -> Result<Told> {
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    ended::told(command, limit, false)
 }
 
 /// Runs a command, shows its output line by line and keeps what goes to standard output, in a lane also what goes to standard error.
@@ -120,92 +104,15 @@ pub(crate) fn tee(command: &mut Command) -> Result<Told> {
     if output::lane().is_some() {
         command.stderr(Stdio::piped());
     }
-    teed(command)
+    ended::told(command.stdout(Stdio::piped()), None, true)
 }
 
 /// The same with what goes to standard error kept in any case.
 pub(crate) fn tee_all(command: &mut Command) -> Result<Told> {
-    teed(command.stderr(Stdio::piped()))
+    tee(command.stderr(Stdio::piped()))
 }
 
-fn teed(command: &mut Command) -> Result<Told> {
-    let lane = output::lane();
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
-    let mut child = command
-        .spawn()
-        .with_context(|| format!("cannot start {}", shown(command)))?;
-    let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
-    let errors = std::thread::spawn(move || {
-        let show = || stderr.map(show).transpose();
-        match lane {
-            Some(lane) => lane.work(show),
-            None => show(),
-        }
-    });
-    let kept = stdout.map(show).transpose()?.unwrap_or_default();
-    let errors = errors.join();
-    let errors = errors.map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
-    Ok(Told {
-        success: child.wait()?.success(),
-        output: kept,
-        errors: errors.unwrap_or_default(),
-    })
-}
-
-/// Shows lines as they come and keeps them.
-fn show(from: impl Read) -> Result<String> {
-    let mut kept = String::new();
-    for line in BufReader::new(from).split(b'\n') {
-        let line = line?;
-        let line = String::from_utf8_lossy(&line);
-        say(&line);
-        kept.push_str(&line);
-        kept.push('\n');
-    }
-    Ok(kept)
-}
-
-/// Runs a command quietly for at most `limit` and returns its standard output; one that takes longer is ended.
-pub(crate) fn output_within(limit: Duration, command: &mut Command) -> Result<String> {
-    let mut child = command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .spawn()
-        .with_context(|| format!("cannot start {}", shown(command)))?;
-    let mut stdout = child.stdout.take();
-    let reader = std::thread::spawn(move || {
-        let mut text = String::new();
-        let read = stdout
-            .as_mut()
-            .map(|stdout| stdout.read_to_string(&mut text));
-        read.transpose().map(|_| text)
-    });
-    let end = Instant::now() + limit;
-    let status = loop {
-        match child.try_wait()? {
-            Some(status) => break status,
-            None if Instant::now() < end => std::thread::sleep(Duration::from_millis(20)),
-            None => {
-                child.kill()?;
-                child.wait()?;
-                bail!("{} took longer than {} s", shown(command), limit.as_secs());
-            }
-        }
-    };
-    let text = reader
-        .join()
-        .map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
-    if !status.success() {
-        bail!(
-            "{} failed ({status}): {}",
-            shown(command),
-            last_lines(&text, 5)
-        );
-    }
-    Ok(text)
-}
-
-fn shown(command: &Command) -> String {
+pub(super) fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let name = program.file_stem().unwrap_or(program.as_os_str());
     let words = std::iter::once(name).chain(command.get_args());
@@ -222,6 +129,7 @@ fn last_lines(text: &str, count: usize) -> String {
 mod tests {
     use super::*;
     use crate::output::Lane;
+    use crate::setup::failed::Failed;
 
     #[test]
     fn a_program_that_is_nowhere_is_not_found() {

@@ -6,6 +6,7 @@
 pub(crate) mod command;
 pub(crate) mod components;
 mod debian;
+pub(crate) mod ended;
 pub(crate) mod failed;
 pub(crate) mod miri;
 mod missing;

@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use anyhow::{Context, Result};
 
@@ -12,7 +13,7 @@ use super::counts::{self, Counts};
 use super::report::Said;
 use crate::output::{announce, say};
 use crate::setup::failed::Failed;
-use crate::setup::telling;
+use crate::setup::{command, telling};
 
 /// The longest, which begin first.
 const LONG: [&str; 8] = [
@@ -27,6 +28,8 @@ const LONG: [&str; 8] = [
 ];
 /// What is at fault by chance is at fault in a test or two. More files are not tried again.
 const MOST_TRIED_AGAIN: usize = 3;
+/// The longest file takes a third of it beside compilers on a slow machine; a browser that hangs is ended after it, and its file tried again.
+const PATIENCE: Duration = Duration::from_secs(15 * 60);
 
 /// What became of the tests of a file.
 struct Ended {
@@ -120,17 +123,13 @@ fn name_of(file: &str) -> &str {
 
 /// Runs the tests of a file, and shows what they said when they are done.
 fn run_file(folder: &Path, file: &str, mut node: Command) -> Result<Ended> {
-    let told = node
-        .args(["--test-reporter=spec", file])
-        .current_dir(folder)
-        .stdin(Stdio::null())
-        .output()
+    node.args(["--test-reporter=spec", file]);
+    let told = command::quietly(node.current_dir(folder), Some(PATIENCE))
         .with_context(|| format!("cannot run the tests of {file}"))?;
-    let text = |bytes: &[u8]| telling::without_colours(&String::from_utf8_lossy(bytes));
     let ended = Ended {
         file: file.to_owned(),
-        success: told.status.success(),
-        output: text(&told.stdout) + &text(&told.stderr),
+        success: told.success,
+        output: told.text(),
     };
     // One file after the other.
     static SHOWING: Mutex<()> = Mutex::new(());

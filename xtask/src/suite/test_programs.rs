@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
@@ -119,19 +119,17 @@ impl Program {
         let notes = workspace::target_dir().join(format!("skipped-tests-{}", self.name));
         // None is left from a run before.
         let _ = fs::remove_file(&notes);
-        let told = started
+        started
             .current_dir(&self.folder)
             // As cargo does: ours is xtask's.
             .env("CARGO_MANIFEST_DIR", &self.folder)
             .env("FLUOROPOSE_SKIPPED", &notes)
-            .envs(checked_profile::surroundings())
-            .stdin(Stdio::null())
-            .output()
+            .envs(checked_profile::surroundings());
+        let told = command::quietly(&mut started, None)
             .with_context(|| format!("cannot run the tests of {}", self.name))?;
-        let text = |bytes: &[u8]| telling::without_colours(&String::from_utf8_lossy(bytes));
         let ended = Ended {
-            success: told.status.success(),
-            output: text(&told.stdout) + &text(&told.stderr),
+            success: told.success,
+            output: told.text(),
             notes: fs::read_to_string(&notes).unwrap_or_default(),
         };
         // One program after the other.
