@@ -6,7 +6,6 @@ mod bodies;
 #[cfg(feature = "alloc")]
 mod coarse;
 pub mod edges;
-mod groups;
 pub mod mirror;
 mod model;
 #[cfg(feature = "alloc")]

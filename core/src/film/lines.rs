@@ -230,7 +230,7 @@ pub(crate) fn measure_by(
     let middle = -pose.transform(&model.centre())[2] as f32;
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
     let mut number = 0;
-    let cut = |triangle: &[u32; 3]| {
+    model.for_each_triangle(|triangle| {
         number += 1;
         let corners = triangle.map(image);
         let mut nearness = None;
@@ -248,8 +248,7 @@ pub(crate) fn measure_by(
                 *nearness.get_or_insert_with(|| triangle.map(nearness_of))
             });
         });
-    };
-    model.for_each_triangle_near((camera, pose), |image| grid.meets(image), cut);
+    });
     close(lines, camera);
     Ok(())
 }

@@ -49,11 +49,6 @@ impl Tiles {
         }
     }
 
-    /// The same with other tiles marked: a bit for each of a row.
-    pub(crate) fn marked(self, marked: [u128; TILES]) -> Self {
-        Self { marked, ..self }
-    }
-
     /// Marks the tile of a pixel.
     pub(crate) fn mark(&mut self, pixel: [i32; 2]) -> [usize; 2] {
         let tile = self.tile(pixel);

@@ -1,15 +1,10 @@
 //! What is drawn: a mesh and, of a closed one, its edges.
 
-use core::ops::Range;
-
 use thiserror::Error;
 
-use crate::camera::Camera;
 use crate::math::Vector3;
 use crate::mesh::edges::{Edges, PackedEdges};
-use crate::mesh::groups::TriangleGroup;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest, SurfaceMark};
-use crate::pose::Pose;
 
 /// Edges were given with a mesh that they are not of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -24,21 +19,13 @@ pub struct OtherEdges;
 pub struct Model<'a> {
     mesh: Mesh<'a>,
     edges: Option<Edges<'a>>,
-    /// All triangles once more, by where they lie, or none.
-    #[cfg(feature = "alloc")]
-    groups: &'a [TriangleGroup],
 }
 
 impl<'a> Model<'a> {
     /// A model that is drawn triangle by triangle.
     #[must_use]
     pub fn new(mesh: Mesh<'a>) -> Self {
-        Self {
-            mesh,
-            edges: None,
-            #[cfg(feature = "alloc")]
-            groups: &[],
-        }
+        Self { mesh, edges: None }
     }
 
     /// A model that is drawn triangle by triangle, from vertices (mm) and three vertex indices for each triangle.
@@ -68,15 +55,7 @@ impl<'a> Model<'a> {
         Self {
             mesh,
             edges: Some(edges),
-            #[cfg(feature = "alloc")]
-            groups: &[],
         }
-    }
-
-    /// The same with its triangles in groups.
-    #[cfg(feature = "alloc")]
-    pub(super) fn grouped(self, groups: &'a [TriangleGroup]) -> Self {
-        Self { groups, ..self }
     }
 
     /// A model that is drawn from packed edges, which were kept with its mesh.
@@ -115,37 +94,6 @@ impl<'a> Model<'a> {
         match edges.and_then(Edges::packed) {
             Some((packed, _)) if self.triangles().is_empty() => packed.for_each_triangle(visit),
             _ => self.triangles().iter().for_each(&mut visit),
-        }
-    }
-
-    #[cfg(feature = "alloc")]
-    fn groups(&self) -> &'a [TriangleGroup] {
-        self.groups
-    }
-
-    /// A microcontroller has no room for them, nor for code that looks into them.
-    #[cfg(not(feature = "alloc"))]
-    #[expect(clippy::unused_self, reason = "as the other")]
-    fn groups(&self) -> &'a [TriangleGroup] {
-        &[]
-    }
-
-    /// The same of those whose images some columns and rows have, and maybe of others: where the triangles are kept in groups, `meets` says of
-    /// each group's columns and rows whether they are asked for.
-    pub(crate) fn for_each_triangle_near(
-        &self,
-        (camera, pose): (&Camera, &Pose),
-        meets: impl Fn(&[Range<i32>; 2]) -> bool,
-        mut visit: impl FnMut(&[u32; 3]),
-    ) {
-        let groups = self.groups();
-        if groups.is_empty() {
-            return self.for_each_triangle(visit);
-        }
-        for group in groups {
-            if group.image(camera, pose).is_none_or(|image| meets(&image)) {
-                group.triangles().iter().for_each(&mut visit);
-            }
         }
     }
 

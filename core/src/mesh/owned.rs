@@ -7,7 +7,6 @@ use crate::mesh::edges::{
     EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, SurfaceFaults, link, link_needed,
     turn,
 };
-use crate::mesh::groups::TriangleGroup;
 use crate::mesh::model::Model;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, SurfaceMark};
 
@@ -21,7 +20,6 @@ pub struct OwnedModel {
     triangles: Vec<u32>,
     bounds: Bounds,
     edges: OwnedEdges,
-    groups: Vec<TriangleGroup>,
     faults: SurfaceFaults,
 }
 
@@ -49,17 +47,11 @@ impl OwnedModel {
             turn(corners.len(), &mut numbers, given);
             edges = linked(&Mesh::checked(corners, given, bounds)).0;
         }
-        let groups = TriangleGroup::all(&Mesh::checked(
-            vertices.as_chunks().0,
-            triangles.as_chunks().0,
-            bounds,
-        ));
         Ok(Self {
             vertices,
             triangles,
             bounds,
             edges,
-            groups,
             faults,
         })
     }
@@ -84,11 +76,10 @@ impl OwnedModel {
             rims,
             mark,
         } = &self.edges;
-        let model = match Edges::new(boxes, groups, rims, *mark) {
+        match Edges::new(boxes, groups, rims, *mark) {
             Some(edges) => Model::linked(mesh, edges),
             None => Model::new(mesh),
-        };
-        model.grouped(&self.groups)
+        }
     }
 }
 

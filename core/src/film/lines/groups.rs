@@ -1,7 +1,5 @@
 //! Lines by the tiles that they have places in, asked four at a time whether a triangle lies across them.
 
-use core::ops::Range;
-
 use super::course::{Course, ORIGIN, POINTS, STEP};
 use super::cut::Seen;
 use crate::image::contour::Point;
@@ -138,10 +136,9 @@ impl<'g> Grid<'g> {
             .flat_map(|line| [line.first(), POINTS - 1].map(|point| line.pixel(point)));
         let tiles = Tiles::around(ends, LEAST_PLACES);
         heads.fill(NONE);
-        let (mut used, mut marked) = (0, [0; TILES]);
+        let mut used = 0;
         for (number, line) in lines.enumerate() {
             for_each_tile(&tiles, &line, |[column, row]| {
-                marked[row] |= 1 << column;
                 let head = &mut heads[row * TILES + column];
                 if groups
                     .get(usize::from(*head))
@@ -155,16 +152,10 @@ impl<'g> Grid<'g> {
             });
         }
         Self {
-            tiles: tiles.marked(marked),
+            tiles,
             heads,
             groups,
         }
-    }
-
-    /// Whether a box of columns and rows meets a tile that a line has places in.
-    #[inline]
-    pub(super) fn meets(&self, image: &[Range<i32>; 2]) -> bool {
-        self.tiles.meets(image)
     }
 
     /// Calls `each` with the number of every line that a triangle lies across, and its corners as that sees them; with some more than once.

@@ -238,29 +238,3 @@ properties! {
         prop_assert!(50 * off <= all, "{} of {}", off, all);
     }
 }
-
-/// Of a surface whose triangles are kept in groups those far from all lines are passed over: what is measured is the same but for the order of sums.
-#[cfg(feature = "alloc")]
-#[test]
-fn triangles_in_groups_give_the_same_paths() {
-    let (vertices, triangles) = sphere(30.0, 120, 60);
-    let alone = Model::from_triangles(&vertices, &triangles).expect("valid");
-    let numbers = triangles.as_flattened().to_vec();
-    let owned = crate::mesh::OwnedModel::new(vertices.as_flattened().to_vec(), numbers);
-    let owned = owned.expect("valid");
-    for (column, z_mm) in [(127.3, -700.0), (90.0, -900.0), (300.0, -500.0)] {
-        let pose = Pose::from(EulerPose {
-            z_mm,
-            ..EulerPose::default()
-        });
-        let mut lines = [(); 2].map(|()| lines_about([column, 129.1], 60.0, 24));
-        measured(&alone, &pose, &mut lines[0]);
-        measured(&owned.as_model(), &pose, &mut lines[1]);
-        let [ours, theirs] = lines;
-        for (a, b) in ours.iter().zip(&theirs) {
-            assert_eq!((a.open, a.depths), (b.open, b.depths));
-            let off = a.paths.iter().zip(&b.paths).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f32::max) < 1e-3);
-        }
-    }
-}
