@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::cell::Cell;
-use super::conclusion::{Conclusion, doubt_few, fill_gaps};
+use super::conclusion::{Conclusion, doubt_between_doubts, doubt_few, fill_gaps};
 use super::distrust::Distrust;
 use super::known_femur::KnownFemur;
 use super::side_margin::SideMargin;
@@ -57,6 +57,7 @@ pub fn conclude(
             None => {}
         }
     }
+    doubt_between_doubts(&mut film);
     doubt_few(&mut film);
     film
 }

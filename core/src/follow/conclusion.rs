@@ -180,6 +180,25 @@ pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
     }
 }
 
+/// Makes a pose doubtful that stands between two doubtful ones, of which one may be another pose itself: that they agree says little.
+/// `film` has all frames of a component.
+#[cfg(any(feature = "alloc", test))]
+pub(super) fn doubt_between_doubts(film: &mut [Conclusion]) {
+    let mut before = None;
+    for at in 0..film.len() {
+        let one = film[at];
+        let after = film.get(at + 1).map(|one| one.why);
+        if let (Why::Agrees, Some(Why::Distrusted(before)), Some(Why::Distrusted(after))) =
+            (one.why, before, after)
+            && (before.is_of_another_pose() || after.is_of_another_pose())
+        {
+            film[at].distrust(Distrust::Beside);
+        }
+        // As it was: of several in a row each is asked by itself.
+        before = Some(one.why);
+    }
+}
+
 /// Makes the few poses of a film that are to be trusted doubtful where nearly all that was found is: they share model, calibration, constants of
 /// the film, and often the way to them. What a person gave counts on neither side.
 #[cfg(any(feature = "alloc", test))]
@@ -227,6 +246,44 @@ mod tests {
         assert_eq!(judged(1, 4), 0);
         assert_eq!(judged(5, 0), 5);
         assert_eq!(judged(0, 0), 0);
+    }
+
+    #[test]
+    fn a_pose_between_two_doubtful_ones_is_doubtful_where_either_may_be_another_pose() {
+        let ways = Why::Distrusted(Distrust::Ways(12.0));
+        let unmet = Why::Distrusted(Distrust::Unmet(0.5));
+        let judged = |whys: &[Why]| {
+            let one = |&why: &Why| Conclusion {
+                state: match why {
+                    Why::Distrusted(_) => State::Doubtful,
+                    Why::GivenByPerson => State::Fixed,
+                    Why::Hidden => State::Untrackable,
+                    _ => State::Followed,
+                },
+                pose: None,
+                why,
+                badness: 0.5,
+            };
+            let mut film: std::vec::Vec<_> = whys.iter().map(one).collect();
+            doubt_between_doubts(&mut film);
+            let trusted = film.iter().map(Conclusion::is_trusted);
+            trusted.collect::<std::vec::Vec<_>>()
+        };
+        let (agrees, given) = (Why::Agrees, Why::GivenByPerson);
+        assert_eq!(judged(&[ways, agrees, unmet]), [false; 3]);
+        assert_eq!(judged(&[unmet, agrees, ways]), [false; 3]);
+        // Neither is another pose; one of them is good; a person gave it; it agrees with nobody.
+        assert!(judged(&[unmet, agrees, unmet])[1]);
+        assert_eq!(judged(&[ways, agrees, agrees, ways])[1..3], [true; 2]);
+        assert!(judged(&[ways, given, ways])[1]);
+        assert_eq!(
+            judged(&[Why::AgreesAlone, ways, agrees]),
+            [true, false, true]
+        );
+        assert!(judged(&[ways, agrees, Why::Hidden])[1]);
+        // Each by itself.
+        assert_eq!(judged(&[ways, agrees, ways, agrees, ways]), [false; 5]);
+        assert!(judged(&[]).is_empty());
     }
 
     #[test]

@@ -74,6 +74,17 @@ impl Distrust {
     }
 }
 
+impl Distrust {
+    /// Whether the doubt is that another pose may be the right one.
+    #[cfg(any(feature = "alloc", test))]
+    pub(super) fn is_of_another_pose(&self) -> bool {
+        matches!(
+            self,
+            Self::Side(_) | Self::Ways(_) | Self::Jump(..) | Self::Beside
+        )
+    }
+}
+
 impl fmt::Display for Distrust {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
