@@ -155,13 +155,18 @@ fn accuracy(out: &mut String, film: &JointFilm) {
         known.sort_by(f64::total_cmp);
         let (middle, last) = (known.get(known.len() / 2), known.last());
         let cell = |deviation: Option<&f64>| match deviation {
-            Some(deviation) => format!("<td>at most {deviation:.1}</td>"),
+            Some(deviation) => format!("<td>at most {:.1}</td>", rounded_up(*deviation)),
             None => "<td>\u{2013}</td>".to_owned(),
         };
         let (word, middle, last) = (escaped(word), cell(middle), cell(last));
         let _ = writeln!(out, "<tr><td>{word}</td>{middle}{last}</tr>");
     }
     out.push_str("</tbody></table>\n");
+}
+
+/// To a tenth: a number that is well known is off by something, too.
+fn rounded_up(deviation: f64) -> f64 {
+    (10.0 * deviation).ceil() / 10.0
 }
 
 fn steps(out: &mut String, film: &JointFilm) {
@@ -377,4 +382,15 @@ fn frames(out: &mut String, film: &JointFilm) {
         let _ = writeln!(out, "<td>{text}</td></tr>");
     }
     out.push_str("</tbody></table>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_is_no_less_than_what_it_bounds_and_never_nothing() {
+        let rounded = [0.03, 0.1, 0.101, 1.0, 2.34].map(rounded_up);
+        assert_eq!(rounded, [0.1, 0.1, 0.2, 1.0, 2.4]);
+    }
 }

@@ -81,7 +81,7 @@ fn table_row(out: &mut String, film: &JointFilm, row: &JointRow) {
     let numbers = row.joint.map_or(none, |joint| joint.numbers);
     let deviations = row.joint.and_then(|joint| joint.deviations).unwrap_or(none);
     let probability = |mm| row.joint.and_then(|joint| joint.lift_off_probability(mm));
-    let probabilities = THRESHOLDS_MM.map(|mm| probability(mm).unwrap_or(f64::NAN));
+    let probabilities = THRESHOLDS_MM.map(|mm| probability(mm).map_or(f64::NAN, millionths));
     let filtered = film.cutoff_hz.map(|_| row.filtered.unwrap_or(none));
     let all = numbers.into_iter().chain(deviations).chain(probabilities);
     for number in all.chain(filtered.into_iter().flatten()) {
@@ -89,6 +89,11 @@ fn table_row(out: &mut String, film: &JointFilm, row: &JointRow) {
     }
     let doubt = quoted(row.doubt.as_deref().unwrap_or_default());
     let _ = writeln!(out, ",{},{doubt}", u8::from(row.checked));
+}
+
+/// A probability in millionths: what is less likely would be a hundred zeros and some digits that nobody knows.
+fn millionths(probability: f64) -> f64 {
+    (1e6 * probability).round() / 1e6
 }
 
 /// The first frame of the film is at time 0.
@@ -243,4 +248,16 @@ fn homogeneous(pose: &Pose) -> [f64; 16] {
         (row, 3) => t[row],
         (row, column) => r[row][column],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::millionths;
+
+    #[test]
+    fn probabilities_have_six_places() {
+        let written = [1e-120, 0.25, 1.0 / 3.0, 1.0].map(|part| millionths(part).to_string());
+        assert_eq!(written, ["0", "0.25", "0.333333", "1"]);
+        assert!(millionths(f64::NAN).is_nan());
+    }
 }
