@@ -229,9 +229,10 @@ impl fmt::Display for Beside {
                 "that is farther than the tray is wide, which no mirrored picture does: is a model in another unit, or are poses or models those of the other component?",
             );
         }
-        f.write_str(match of_film {
-            true => "are the pictures mirrored, or the models those of the other side of the body?",
-            false => "is the picture mirrored, is a model that of the other side of the body, or is one of the poses wrong?",
+        f.write_str(match (of_film, flipped) {
+            (true, Some(_)) => "are the pictures mirrored, or the models those of the other side of the body?",
+            (true, None) => "are the pictures mirrored, the models those of the other side of the body, or the poses of one component wrong throughout?",
+            (false, _) => "is the picture mirrored, is a model that of the other side of the body, or is one of the poses wrong?",
         })?;
         match flipped {
             Some(Flipped { mm, times }) => write!(

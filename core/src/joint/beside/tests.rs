@@ -197,7 +197,11 @@ fn a_tray_farther_off_than_it_is_wide_is_no_mirrored_one() {
         };
         format!("{beside}")
     };
-    assert!(words(40.0).contains("are the pictures mirrored"));
+    let near = words(40.0);
+    assert!(
+        near.contains("are the pictures mirrored") && near.contains("one component wrong"),
+        "{near}"
+    );
     let far = words(295.0);
     assert!(
         far.contains("295 mm beside") && far.contains("another unit") && !far.contains("flip"),
