@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 
-use super::ended::{self, Told};
+use super::ended::{self, Told, shown};
 use super::telling;
 use crate::output;
 
@@ -110,14 +110,6 @@ pub(crate) fn tee(command: &mut Command) -> Result<Told> {
 /// The same with what goes to standard error kept in any case.
 pub(crate) fn tee_all(command: &mut Command) -> Result<Told> {
     tee(command.stderr(Stdio::piped()))
-}
-
-pub(super) fn shown(command: &Command) -> String {
-    let program = Path::new(command.get_program());
-    let name = program.file_stem().unwrap_or(program.as_os_str());
-    let words = std::iter::once(name).chain(command.get_args());
-    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
-    format!("`{}`", words.join(" "))
 }
 
 fn last_lines(text: &str, count: usize) -> String {

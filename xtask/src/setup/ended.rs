@@ -1,6 +1,7 @@
 //! Programs run to their end, or to a limit of time: a browser or an emulator that hangs would be waited for without end, and nobody told which.
 
 use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use super::failed::Failed;
-use super::{command, telling};
+use super::telling;
 use crate::output::{self, say};
 
 /// Where steps run side by side, and so in CI, nothing takes as long: the longest compilation takes a third of it on a slow machine.
@@ -58,22 +59,22 @@ impl Told {
 
 /// Runs a command as its streams are set, those that are piped kept and, where that is asked, shown line by line.
 /// One that takes longer than `limit`, or than anything may in a lane, is ended with all that it started.
-pub(super) fn told(command: &mut Command, limit: Option<Duration>, shown: bool) -> Result<Told> {
+pub(super) fn told(command: &mut Command, limit: Option<Duration>, aloud: bool) -> Result<Told> {
     let mut child = command
         .stdin(Stdio::null())
         .spawn()
-        .with_context(|| format!("cannot start {}", command::shown(command)))?;
+        .with_context(|| format!("cannot start {}", shown(command)))?;
     let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
     let (stdout, stderr) = (
-        stdout.map(|stdout| Reading::begin(stdout, shown)),
-        stderr.map(|stderr| Reading::begin(stderr, shown)),
+        stdout.map(|stdout| Reading::begin(stdout, aloud)),
+        stderr.map(|stderr| Reading::begin(stderr, aloud)),
     );
     let limit = limit.or_else(|| output::lane().map(|_| IN_A_LANE));
     let (status, given_up) = wait(&mut child, limit)?;
     let all = |reading: Option<Reading>| {
         reading
             .map_or(Ok(String::new()), Reading::end)
-            .with_context(|| format!("reading of {} broke off", command::shown(command)))
+            .with_context(|| format!("reading of {} broke off", shown(command)))
     };
     Ok(Told {
         success: given_up.is_none() && status.success(),
@@ -112,9 +113,19 @@ fn end_all(child: &mut Child) -> Result<Vec<String>> {
     child.kill()?;
     for process in &below {
         // One that has ended meanwhile is what was wanted.
-        let _ = command::output(Command::new("kill").args(["-9", &process.number.to_string()]));
+        let number = process.number.to_string();
+        let _ = Command::new("kill").args(["-9", &number]).output();
     }
     Ok(below.into_iter().map(|process| process.name).collect())
+}
+
+/// A command as it is told of.
+pub(super) fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program());
+    let name = program.file_stem().unwrap_or(program.as_os_str());
+    let words = std::iter::once(name).chain(command.get_args());
+    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
+    format!("`{}`", words.join(" "))
 }
 
 /// A program that runs on this machine.
