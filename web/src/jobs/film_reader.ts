@@ -7,6 +7,7 @@ import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm
 import { middleOf } from '../geometry/mesh_middle';
 import { pointsFrom } from '../geometry/points';
 import type { Vector } from '../geometry/pose_motion';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 import { indexOfFrame } from '../document/frame_index';
 import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
@@ -18,6 +19,9 @@ import { type Beside, ReadBeside } from './film_beside';
 import { onFrameInput } from './from_here';
 import { Pause } from './pause';
 import { sentenceOf, type Services } from './services';
+
+/** No pose is near it. */
+const ELSEWHERE: PoseNumbers = { x: Infinity, y: 0, z: 0, zRot: 0, xRot: 0, yRot: 0 };
 
 /** How long the document rests before its frames are asked, ms: while a hand moves nothing is worth reading. */
 export const FILM_REST = 40;
@@ -46,6 +50,8 @@ export class FilmReader {
   /** They cannot be corrected. */
   readonly #refused = new WeakSet<Posed>();
   #last: KnownFilm | null = null;
+  /** The poses that were there when nothing was left to be asked or corrected. */
+  readonly #rested = new WeakMap<KnownFilm, readonly Witness[]>();
   /** How often these very poses were asked. */
   #turns = 0;
   #asked: string | null = null;
@@ -127,7 +133,11 @@ export class FilmReader {
     this.#beside.keepTo(this.#services.store.doc, (component) => this.#middleOf(component));
     if (this.#busy || this.#adopt()) return;
     const task = this.#task();
-    if (!task) return void this.#waiting.splice(0).forEach((go) => go());
+    if (!task) {
+      const { known } = this.#services.store.doc.film;
+      if (known && known === this.#last) this.#rested.set(known, this.#witnesses(() => true));
+      return void this.#waiting.splice(0).forEach((go) => go());
+    }
     this.#pause.before(FILM_REST, () => void this.#run());
   }
 
@@ -144,9 +154,36 @@ export class FilmReader {
       for (const witness of this.#witnesses(() => true)) this.#entries.set(witness.key, { witness, isRead: false });
       return false;
     }
+    if (known && this.#isBack(known)) {
+      this.#last = known;
+      this.#asked = JSON.stringify(known.stated);
+      this.#backTo(this.#witnesses(() => true));
+      return false;
+    }
     const isBehind = stated.constants === null && known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(this.#witnesses());
     if (isBehind) store.amend((doc) => withKnownFilm(doc, this.#last));
     return isBehind;
+  }
+
+  /** A step back, or on again, brought a film with the poses that it was told by: it holds, though the worker would tell another by now. */
+  #isBack(known: KnownFilm): boolean {
+    const [then, here] = [this.#rested.get(known), this.#witnesses(() => true)];
+    if (known === this.#last || then?.length !== here.length || JSON.stringify(known.stated) !== JSON.stringify(this.#services.store.doc.film.stated)) return false;
+    const poses = new Map(then.map(({ key, pose }) => [key, pose]));
+    return here.every(({ key, component, pose }) => isNear(poses.get(key) ?? ELSEWHERE, pose, this.#middleOf(component)));
+  }
+
+  /** What was read elsewhere is read anew where it is wanted. */
+  #backTo(here: readonly Witness[]): void {
+    const before = new Map(this.#entries);
+    this.#entries.clear();
+    for (const witness of here) {
+      const entry = before.get(witness.key);
+      const stands = entry && isNear(entry.witness.pose, witness.pose, this.#middleOf(witness.component));
+      this.#entries.set(witness.key, stands ? entry : { witness, isRead: false });
+      if (stands) before.delete(witness.key);
+    }
+    for (const { witness, isRead } of before.values()) if (isRead) this.#left.set(witness.key, witness);
   }
 
   /** Profiles of another work tell nothing of this one. */

@@ -307,6 +307,48 @@ describe('the reader of the film', () => {
     expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.03);
   });
 
+  it('has with a step back, and on again, the film that was known of those poses, and asks no frame for it', async () => {
+    const { store, asked, corrected } = bench([0.026, 0.05, 0.07]);
+    const curvature = () => store.doc.film.known?.models.femur?.numbers[0];
+    store.perform(clicked(store.doc));
+    await rest();
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    expect([curvature(), asked.length]).toEqual([0.05, 2]);
+    store.undo();
+    await rest();
+    expect([curvature(), asked.length]).toEqual([0.026, 2]);
+    expect(cellOf(store.doc, 'a', 'femur').result).toMatchObject({ onFrame: { film: [0.026, 0.8, 0.7] } });
+    store.redo();
+    await rest();
+    expect([curvature(), asked.length]).toEqual([0.05, 2]);
+    expect(corrected.length).toBeGreaterThan(0);
+    // What comes next is told by all that is there.
+    store.perform(deleteOutline({ frameId: 'a', component: 'femur' }));
+    await rest();
+    expect(handed(asked.slice(2))).toEqual([['femur 1: 0', 'femur 0: 0', 'femur 1: 128']]);
+    expect(curvature()).toBe(0.07);
+  });
+
+  it('asks where a step back brings other poses than the film was told by', async () => {
+    const { store, asked } = bench([0.026, 0.05, 0.07]);
+    store.perform(clicked(store.doc));
+    await rest();
+    const moved = { x: 3, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    store.amend((doc) => {
+      const cell = cellOf(doc, 'a', 'femur');
+      const result = cell.result as Posed;
+      return withCell(doc, { frameId: 'a', component: 'femur' }, { ...cell, result: { ...result, candidates: [{ ...result.candidates[0]!, pose: moved }] } });
+    });
+    await rest();
+    const before = asked.length;
+    store.undo();
+    await rest();
+    expect(asked.length).toBeGreaterThan(before);
+  });
+
   it('takes a film from a session as it is, until a new pose comes: then all are asked', async () => {
     const first = bench();
     first.store.perform(clicked(first.store.doc));
