@@ -72,9 +72,7 @@ impl Distrust {
             Self::Knee(_) | Self::Mirrored(_) => "joint",
         }
     }
-}
 
-impl Distrust {
     /// Whether the doubt is that another pose may be the right one.
     #[cfg(any(feature = "alloc", test))]
     pub(super) fn is_of_another_pose(&self) -> bool {

@@ -167,8 +167,10 @@ export class FilmReader {
 
   /** A step back, or on again, brought a film with the poses that it was told by: it holds, though the worker would tell another by now. */
   #isBack(known: KnownFilm): boolean {
-    const [then, here] = [this.#rested.get(known), this.#witnesses(() => true)];
-    if (known === this.#last || then?.length !== here.length || JSON.stringify(known.stated) !== JSON.stringify(this.#services.store.doc.film.stated)) return false;
+    const then = known === this.#last ? undefined : this.#rested.get(known);
+    if (!then) return false;
+    const here = this.#witnesses(() => true);
+    if (then.length !== here.length || JSON.stringify(known.stated) !== JSON.stringify(this.#services.store.doc.film.stated)) return false;
     const poses = new Map(then.map(({ key, pose }) => [key, pose]));
     return here.every(({ key, component, pose }) => isNear(poses.get(key) ?? ELSEWHERE, pose, this.#middleOf(component)));
   }

@@ -70,7 +70,7 @@ pub(crate) fn run(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
+/// Runs a command quietly and returns its standard output; an error carries the last lines of both outputs.
 pub(crate) fn output(command: &mut Command) -> Result<String> {
     let told = quietly(command, None)?;
     said(command, told)
@@ -83,12 +83,10 @@ pub(crate) fn output_within(limit: Duration, command: &mut Command) -> Result<St
 }
 
 fn said(command: &Command, told: Told) -> Result<String> {
-    if let Some(how) = told.given_up {
-        bail!("{} {how}", shown(command));
-    }
     if !told.success {
-        let errors = last_lines(&told.errors, 5);
-        bail!("{} failed: {errors}", shown(command));
+        // Some programs say on standard output why they end.
+        let (how, said) = (told.how(), last_lines(&told.all(), 5));
+        bail!("{} {how}: {said}", shown(command));
     }
     Ok(told.output)
 }
@@ -158,6 +156,18 @@ mod tests {
             let failed = failing.downcast_ref::<Failed>().unwrap();
             assert_eq!(failed.lines, ["why"]);
         });
+    }
+
+    #[test]
+    fn why_a_command_failed_is_told_wherever_it_says_so() {
+        let told = |text: &str| {
+            let mut shell = Command::new("sh");
+            let error = output(shell.args(["-c", text])).unwrap_err();
+            error.to_string()
+        };
+        let (loud, board) = (told("echo why >&2; exit 3"), told("echo panicked; exit 1"));
+        assert!(loud.contains("3): why"), "{loud}");
+        assert!(board.contains("1): panicked"), "{board}");
     }
 
     #[test]

@@ -26,8 +26,9 @@ pub(crate) struct Told {
     pub output: String,
     /// To standard error, as far as it was kept.
     pub errors: String,
+    status: ExitStatus,
     /// Why it was not waited for to the end.
-    pub given_up: Option<String>,
+    given_up: Option<String>,
 }
 
 impl Told {
@@ -36,10 +37,15 @@ impl Told {
         if self.success {
             return Ok(());
         }
-        let how = self.given_up.as_deref().unwrap_or("failed");
-        let what = format!("{what} {how}");
+        let what = format!("{what} {}", self.how());
         let lines = lines_of(&telling::without_colours(&self.all()));
         Err(Failed { what, lines }.into())
+    }
+
+    /// How it failed, as what follows its name.
+    pub(super) fn how(&self) -> String {
+        let given_up = self.given_up.clone();
+        given_up.unwrap_or_else(|| format!("failed ({})", self.status))
     }
 
     /// Both, one after the other.
@@ -80,6 +86,7 @@ pub(super) fn told(command: &mut Command, limit: Option<Duration>, aloud: bool) 
         success: given_up.is_none() && status.success(),
         output: all(stdout)?,
         errors: all(stderr)?,
+        status,
         given_up,
     })
 }
@@ -245,7 +252,7 @@ mod tests {
         );
         assert!(!told.success);
         assert_eq!(told.output, "begun\n");
-        let how = told.given_up.clone().unwrap();
+        let how = told.how();
         assert!(how.starts_with("took longer than 0 s"), "{how}");
         assert!(how.matches("sleep").count() == 2, "{how}");
         let failed = told.or_failed("a test", telling::of_others).unwrap_err();
