@@ -26,6 +26,7 @@ if (!IN_FIREFOX) {
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
     keepFollowed(await exported(page, 'Session', 'With images and models'), FRAMES);
+    await step(page, t, 'a click beside the way leaves nothing to be followed once it is taken back', () => takenBack(page));
     await step(page, t, 'a click while it is followed is answered at once', () => clickedMeanwhile(page, t));
     await step(page, t, 'the tool in hand is in hand after a reload', async () => {
       await page.keyboard.press('b');
@@ -144,6 +145,21 @@ async function followed(page, t) {
   await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
   await page.keyboard.press('Control+y');
   await waitForFollowed(page, 2 * (FRAMES - 1));
+}
+
+/** The click tells the film a little more, which moves what was clicked before, there and back. @param {Page} page */
+async function takenBack(page) {
+  const stage = new Stage(page);
+  await stage.learn();
+  await stage.click(tracing.insideOf(await trueOutline('femur', FRAMES)));
+  const follow = card(page).getByRole('button', { name: 'Follow the film' });
+  await follow.waitFor();
+  await atRest(page);
+  await page.keyboard.press('Control+z');
+  await waitForFollowed(page, 2 * (FRAMES - 1));
+  await follow.waitFor({ state: 'hidden' });
+  await atRest(page);
+  assert.equal(await follow.count(), 0, await panel.cells(page).then((cells) => cells.join('; ')));
 }
 
 /** Nothing of the film goes before a click: the worker that finds poses gets it next, and answers before the film is followed. @param {Page} page @param {import('node:test').TestContext} t */

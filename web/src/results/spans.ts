@@ -5,6 +5,7 @@ import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../do
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
+import { isNear } from './film';
 
 /** Frames that a component is to be followed over, from those that a person set. */
 export interface Span {
@@ -46,7 +47,7 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
     if (set.has(frame) || !isFree(cell)) return [];
     // What was followed so far when the page went was not judged with the film.
     const isJudged = isFollowed(cell.result) && !isSoFar(cell.result);
-    const isFrom = (these: readonly Given[]) => isJudged && cell.result?.origin.endsWith(keyAmong(these, frame));
+    const isFrom = (these: readonly Given[]) => isJudged && cell.result !== null && isFromThese(cell.result.origin, these, frame);
     // Sessions from before `own` do not know what is said of it now.
     const isLed = !isDoubtful && verdictAlone(cell.result)?.because === texts.follow.fromDoubtful;
     const isDone = !isOpen && !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
@@ -64,7 +65,7 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
 export function isLeadDoubtful(doc: Doc, component: ComponentName): (frame: number, origin: string) => boolean | null {
   const given = givenPoses(doc, component);
   const isDoubtful = given.every((one) => one.isDoubtful);
-  return (frame, origin) => (given.length > 0 && origin.endsWith(keyAmong(given, frame)) ? isDoubtful : null);
+  return (frame, origin) => (given.length > 0 && isFromThese(origin, given, frame) ? isDoubtful : null);
 }
 
 /**
@@ -99,10 +100,37 @@ function givenIn(doc: Doc, place: Place, frame: number): Given | null {
 }
 
 function keyAmong(given: readonly Given[], frame: number): string {
+  return leadsAmong(given, frame).map(keyOf).join(' and ');
+}
+
+/** The nearest on both sides of a frame. */
+function leadsAmong(given: readonly Given[], frame: number): readonly Given[] {
   const next = firstFrom(given, frame);
   const after = given[next];
   const before = after?.frame === frame ? after : given[next - 1];
-  return [before, after].flatMap((one) => (one ? [keyOf(one)] : [])).join(' and ');
+  return [before, after].flatMap((one) => one ?? []);
+}
+
+/**
+ * Was a frame followed from these? Constants of the film that are a little others move a clicked pose a little, there and back: its own
+ * frame leads from both places to the same pose, and so do those beside it.
+ */
+function isFromThese(origin: string, given: readonly Given[], frame: number): boolean {
+  if (origin.endsWith(keyAmong(given, frame))) return true;
+  const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
+  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && isNear(led[at]!.pose, lead.pose, ORIGIN));
+}
+
+/** Of the model: where its middle is nobody asks for here, and a pose that is near there is near in the middle too, unless that lies far off. */
+const ORIGIN = [0, 0, 0] as const;
+
+/** What `keyAmong` wrote. */
+function ledBy(origin: string): readonly Pick<Given, 'frame' | 'pose'>[] {
+  const [, leads = ''] = /^\D*(frame \d+ at [-\d. ]+(?: and frame \d+ at [-\d. ]+)?)$/.exec(origin) ?? [];
+  return leads.split(' and ').flatMap((lead) => {
+    const [frame, x, y, z, zRot, xRot, yRot] = lead.match(/-?[\d.]+/g)?.map(Number) ?? [];
+    return yRot === undefined ? [] : [{ frame: frame! - 1, pose: { x: x!, y: y!, z: z!, zRot: zRot!, xRot: xRot!, yRot } }];
+  });
 }
 
 /** Number of the first that is at a frame or behind it: they are in the order of the film. */
