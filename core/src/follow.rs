@@ -57,6 +57,7 @@ mod search_plan;
 mod second_look;
 #[cfg(feature = "alloc")]
 mod set_aside;
+mod set_pose;
 mod settle;
 #[cfg(feature = "alloc")]
 mod settling;
@@ -114,6 +115,7 @@ pub use search_plan::{
 pub use second_look::{SecondLook, second_looks};
 #[cfg(feature = "alloc")]
 pub use set_aside::{set_aside, take_better};
+pub use set_pose::refined_around;
 pub use settle::settled;
 #[cfg(feature = "alloc")]
 pub use settling::{Settling, SettlingStep};

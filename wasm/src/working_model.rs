@@ -6,6 +6,7 @@ use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, correct_candidates,
     find, first_poses, look_around,
 };
+use fluoropose::follow::{Subject, refined_around};
 use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
@@ -221,6 +222,28 @@ impl WorkingModel {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         refine(&model, &[view], start, options, &mut memory).map_err(sentence)
+    }
+
+    /// The same from a pose that somebody set: on a frame from around it too.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined.
+    pub(crate) fn refine_set(
+        &mut self,
+        start: &Pose,
+        view: CameraView<'_>,
+        options: RefineOptions,
+    ) -> Result<Refined, JsError> {
+        let Target::Image(image) = view.target else {
+            return self.refine_from(start, view, options);
+        };
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        let subject = Subject {
+            options,
+            ..Subject::new(&model, &[], view.camera)
+        };
+        refined_around(&subject, &image, start, &mut memory).map_err(sentence)
     }
 
     /// Brings poses that were refined on a frame to where its film puts the edges, and adds mirror images of the best; best first.

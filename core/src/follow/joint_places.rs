@@ -99,7 +99,7 @@ fn reach_px(subject: &Subject<'_>, pose: &Pose) -> f64 {
 }
 
 /// What a step of metal is at least, by how much the frame changes over some pixels everywhere.
-fn usual_step(frame: &dyn Grey) -> f64 {
+pub(super) fn usual_step(frame: &dyn Grey) -> f64 {
     let (width, height) = frame.size();
     let at = |k: usize, side: usize| (2 * k + 1) as f64 * side as f64 / (2 * ASKED) as f64;
     let (mut sum, mut count) = (0.0, 0usize);

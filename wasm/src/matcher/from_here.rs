@@ -191,7 +191,8 @@ impl Matcher {
         })
     }
 
-    /// The same onto the edges of a grey frame, seen by the camera of a calibration text. Whether the implant is darker or
+    /// The same onto the edges of a grey frame, seen by the camera of a calibration text; from around the pose too where that leads to none that is
+    /// good and nothing is locked. Whether the implant is darker or
     /// brighter than what surrounds it is seen at the start. `known` is what the film makes of the component, as
     /// `FilmFacts.model` gives it, or empty.
     ///
@@ -286,7 +287,7 @@ fn fitted(
     view: CameraView<'_>,
     options: RefineOptions,
 ) -> Result<HandFit, JsError> {
-    let refined: Refined = model.refine_from(start, view, options)?;
+    let refined: Refined = model.refine_set(start, view, options)?;
     let assessed = model.assess(&refined, view)?;
     // How sure a pose is of which a part was given is not known.
     let free = options.locks.is_empty();
