@@ -31,6 +31,7 @@ export function CellRow({ state, component, columns: { first, last } }: { state:
             isBusy={jobs.some(({ place }) => place?.frameId === frame.id && place.component === component)}
             column={index === frameIndex}
             selected={index === frameIndex && component === state.ui.component}
+            isStop={isStop(doc.frames.length, index === frameIndex && component === state.ui.component)}
           />
         );
       })}
@@ -49,6 +50,13 @@ function spacers(count: number) {
   ));
 }
 
+/** Of more cells than this the selected one alone is a stop of the Tab key: D, F and C lead to the others. */
+const STOPS = 40;
+
+function isStop(frames: number, selected: boolean): boolean {
+  return selected || frames <= STOPS;
+}
+
 interface CellButtonProps {
   readonly component: ComponentName;
   /** From 0. */
@@ -60,12 +68,13 @@ interface CellButtonProps {
   readonly isBusy: boolean;
   /** In the current frame. */
   readonly column: boolean;
-  /** The Tab key stops at this one alone: D, F and C lead to the others. */
   readonly selected: boolean;
+  /** The Tab key stops at it. */
+  readonly isStop: boolean;
 }
 
 /** Made again only when something of it changes: a film has hundreds. */
-function CellButton({ component, index, cell, mark, poseKey, isBusy, column, selected }: CellButtonProps) {
+function CellButton({ component, index, cell, mark, poseKey, isBusy, column, selected, isStop }: CellButtonProps) {
   const { store } = useApp().services;
   return useMemo(() => {
     const progress = progressOf(cell, mark, poseKey);
@@ -78,7 +87,7 @@ function CellButton({ component, index, cell, mark, poseKey, isBusy, column, sel
       <td aria-colindex={index + 2}>
         <button
           type="button"
-          tabIndex={selected ? undefined : -1}
+          tabIndex={isStop ? undefined : -1}
           class={classOf(progress, column, isBusy)}
           aria-busy={isBusy}
           aria-label={name}
@@ -90,7 +99,7 @@ function CellButton({ component, index, cell, mark, poseKey, isBusy, column, sel
         </button>
       </td>
     );
-  }, [store, component, index, cell, mark, poseKey, isBusy, column, selected]);
+  }, [store, component, index, cell, mark, poseKey, isBusy, column, selected, isStop]);
 }
 
 /** Everything that is marked has a sign of its own: none is told by colour alone. */
