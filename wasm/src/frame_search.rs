@@ -130,10 +130,7 @@ impl FrameSearch {
     /// Says whether metal is brighter than what surrounds it, from now on.
     #[wasm_bindgen(js_name = showBright)]
     pub fn show_bright(&mut self, bright: bool) {
-        self.polarity = match bright {
-            true => Polarity::BrightImplant,
-            false => Polarity::DarkImplant,
-        };
+        self.polarity = Polarity::of(bright);
     }
 
     /// Says which component it is, and its axes (nine numbers, as `axes_from` takes them), where its shape tells them, and whether they

@@ -189,11 +189,8 @@ impl Matcher {
         let film = film_model(film)?;
         frame.look(|frame| {
             traced.look(|silhouette| {
-                let polarity = match bright_implant {
-                    Some(true) => Polarity::BrightImplant,
-                    Some(false) => Polarity::DarkImplant,
-                    None => told_inside(frame, silhouette.mask()),
-                };
+                let polarity = bright_implant
+                    .map_or_else(|| told_inside(frame, silhouette.mask()), Polarity::of);
                 let image = ImageTarget {
                     frame,
                     // What hides a side has edges of its own.

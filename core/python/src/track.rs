@@ -59,17 +59,13 @@ pub(crate) fn track<'py>(
         poses: poses_of(rows),
         called: called.clone(),
     });
-    let polarity = |bright| match bright {
-        true => Polarity::BrightImplant,
-        false => Polarity::DarkImplant,
-    };
     let untold = Arc::new(Mutex::new(Untold::default()));
     let request = Request {
         study,
         out: out.clone(),
         clicks: clicks.into_iter().map(click).collect(),
         fixed: fixed.collect(),
-        polarity: bright.map(polarity),
+        polarity: bright.map(Polarity::of),
         interpolate,
         anew,
         listener: listener(&untold),

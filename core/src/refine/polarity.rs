@@ -49,7 +49,7 @@ pub fn polarity_at(
             darker_inside += sample.length * side;
         }
     })?;
-    Ok(of(darker_inside < 0.0))
+    Ok(Polarity::of(darker_inside < 0.0))
 }
 
 /// The polarity of a frame with metal at this place (column, row, pixels): whether it is darker there than in most of what
@@ -60,7 +60,7 @@ pub fn polarity_near(frame: &dyn Grey, [column, row]: [f64; 2]) -> Polarity {
     let reach = AROUND * width.min(height) as f64;
     let round = |reach: f64| [column - reach, row - reach, column + reach, row + reach];
     let (around, there) = (sorted(frame, round(reach)), sorted(frame, round(PLACE)));
-    of(rank(&there, 0.5) > rank(&around, 0.5))
+    Polarity::of(rank(&there, 0.5) > rank(&around, 0.5))
 }
 
 /// The polarity of a frame with an implant in this area (left, top, right, bottom, pixels): whether the darkest or the
@@ -76,14 +76,7 @@ pub fn polarity_inside(frame: &dyn Grey, area: [f64; 4]) -> Polarity {
     );
     let inside = sorted(frame, area);
     let usual = rank(&around, 0.5);
-    of(rank(&inside, 1.0 - METAL) - usual > usual - rank(&inside, METAL))
-}
-
-fn of(is_bright: bool) -> Polarity {
-    match is_bright {
-        true => Polarity::BrightImplant,
-        false => Polarity::DarkImplant,
-    }
+    Polarity::of(rank(&inside, 1.0 - METAL) - usual > usual - rank(&inside, METAL))
 }
 
 /// Grey values of an area, as far as it lies in the frame, by rising value.
@@ -141,7 +134,7 @@ mod tests {
         for (metal, inverted) in [(0, false), (60, false), (0, true), (60, true)] {
             let pixels = pixels(metal, inverted);
             let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-            let wanted = of(inverted);
+            let wanted = Polarity::of(inverted);
             for place in [[55.0, 55.0], [54.0, 50.0], [66.0, 69.0]] {
                 assert_eq!(polarity_near(&frame, place), wanted, "{metal} {place:?}");
             }
@@ -169,7 +162,7 @@ mod tests {
             ] {
                 assert_eq!(
                     polarity_inside(&frame, area),
-                    of(metal > around),
+                    Polarity::of(metal > around),
                     "{metal} {area:?}"
                 );
             }
@@ -201,7 +194,7 @@ mod tests {
             let mut buffers = RefineBuffers::default();
             let memory = &mut buffers.borrow(&model, &camera);
             let found = polarity_at(&model, &camera, &pose, &frame, memory).expect("drawn");
-            assert_eq!(found, of(metal > around), "{metal}");
+            assert_eq!(found, Polarity::of(metal > around), "{metal}");
         }
     }
 

@@ -147,7 +147,7 @@ mod tests {
             place in (9.0..15.0f64, 9.0..15.0f64), angle in 0.0..7.0f64, t in -5.0..5.0f64, bright in any::<bool>(),
         ) {
             let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-            let polarity = if bright { Polarity::BrightImplant } else { Polarity::DarkImplant };
+            let polarity = Polarity::of(bright);
             let image = ImageTarget { frame: &frame, unknown: None, polarity, film: None };
             let (down, right) = libm::sincos(angle);
             let found = spread(&image, [place.0, place.1], [right, down], t).expect("within");

@@ -119,6 +119,17 @@ pub enum Polarity {
     BrightImplant,
 }
 
+impl Polarity {
+    /// That of a frame in which the implant is brighter than what surrounds it, or is not.
+    #[must_use]
+    pub const fn of(is_bright: bool) -> Self {
+        match is_bright {
+            true => Self::BrightImplant,
+            false => Self::DarkImplant,
+        }
+    }
+}
+
 /// A grey frame whose edges the model's outline is brought onto.
 #[derive(Clone, Copy)]
 pub struct ImageTarget<'a> {

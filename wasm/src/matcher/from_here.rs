@@ -192,9 +192,8 @@ impl Matcher {
     }
 
     /// The same onto the edges of a grey frame, seen by the camera of a calibration text; from around the pose too where that leads to none that is
-    /// good and nothing is locked. Whether the implant is darker or
-    /// brighter than what surrounds it is seen at the start. `known` is what the film makes of the component, as
-    /// `FilmFacts.model` gives it, or empty.
+    /// good and nothing is locked. `known` is what the film makes of the component, as `FilmFacts.model` gives it, or empty. `bright`: whether the
+    /// implant is brighter than what surrounds it. Where that is not known it is seen at the start, which beside the implant is a guess.
     ///
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
@@ -206,10 +205,11 @@ impl Matcher {
         start: &[f64],
         locked: &[u8],
         known: &[f64],
+        bright: Option<bool>,
     ) -> Result<HandFit, JsError> {
         let (start, options) = begin(start, locked)?;
         let model = model_of(&mut self.model)?;
-        let on = (film, film_model(known)?);
+        let on = (film, film_model(known)?, bright);
         on_frame(model, on, hidden, &start, |model, view, bright| {
             let fit = fitted(model, &start, view, options)?;
             Ok(HandFit { bright, ..fit })
@@ -239,10 +239,11 @@ impl Matcher {
         hidden: &HiddenPixels,
         pose: &[f64],
         known: &[f64],
+        bright: Option<bool>,
     ) -> Result<HandVerdict, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let model = model_of(&mut self.model)?;
-        let on = (film, film_model(known)?);
+        let on = (film, film_model(known)?, bright);
         on_frame(model, on, hidden, &pose, |model, view, _| {
             judged(model, &pose, view)
         })
@@ -258,10 +259,10 @@ fn judged(
     Ok(HandVerdict(judge_fit(&fit, true, &Limits::USUAL)))
 }
 
-/// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose`, and told too.
+/// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose` where it is not known, and told too.
 pub(super) fn on_frame<T>(
     model: &mut WorkingModel,
-    (frame, film): (&FrameImage, Option<FilmModel>),
+    (frame, film, bright): (&FrameImage, Option<FilmModel>, Option<bool>),
     hidden: &HiddenPixels,
     pose: &Pose,
     with: impl FnOnce(&mut WorkingModel, CameraView<'_>, bool) -> Result<T, JsError>,
@@ -269,7 +270,10 @@ pub(super) fn on_frame<T>(
     let camera = hidden.camera;
     let unknown = Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
     frame.look(|frame| {
-        let polarity = model.polarity(pose, &camera, frame)?;
+        let polarity = match bright {
+            Some(is_bright) => Polarity::of(is_bright),
+            None => model.polarity(pose, &camera, frame)?,
+        };
         let target = ImageTarget {
             frame,
             unknown: Some(&unknown),

@@ -102,8 +102,7 @@ impl OneClick {
             film: film.shared(),
             camera,
             polarity: match bright_implant {
-                Some(true) => Polarity::BrightImplant,
-                Some(false) => Polarity::DarkImplant,
+                Some(is_bright) => Polarity::of(is_bright),
                 None => film.look(|frame| Ok(prompt.polarity(frame)))?,
             },
             prompt,

@@ -49,8 +49,8 @@ impl EdgeReadings {
 
 #[wasm_bindgen]
 impl Matcher {
-    /// Reads the edges of a frame along the outline of the model at a pose (six numbers); `known` as for `judgeOnFrame`, which
-    /// judges the same.
+    /// Reads the edges of a frame along the outline of the model at a pose (six numbers); `known` and `bright` as for
+    /// `judgeOnFrame`, which judges the same.
     ///
     /// # Errors
     /// The core's sentence about a pose at which the model cannot be drawn.
@@ -61,9 +61,10 @@ impl Matcher {
         hidden: &HiddenPixels,
         pose: &[f64],
         known: &[f64],
+        bright: Option<bool>,
     ) -> Result<EdgeReadings, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
-        let on = (film, film_model(known)?);
+        let on = (film, film_model(known)?, bright);
         let mut numbers = Vec::new();
         let fit = on_frame(
             model_of(&mut self.model)?,

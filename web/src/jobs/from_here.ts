@@ -123,7 +123,7 @@ export async function onFrameInput({ store, studio }: Services, { component, fra
   });
   const { outline } = cellOf(doc, frameId, component);
   const unknown = outline?.closed && outline.unknownSides.length > 0 ? flatten(outline) : null;
-  return { component, camera, frame, others, unknown, film: filmNumbers(doc, component) };
+  return { component, camera, frame, others, unknown, bright: ui.tracing.bright, film: filmNumbers(doc, component) };
 }
 
 function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {

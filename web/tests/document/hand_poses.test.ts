@@ -173,10 +173,12 @@ describe('refining from here', () => {
     const { store, asked, waited, fromHere, answer } = bench();
     store.perform(deleteOutline(PLACE));
     store.perform(setPoseByHand(PLACE, POSE));
+    // Beside the implant nobody can see whether metal is dark: it was told before.
+    store.setTracing({ bright: false });
     const done = fromHere.refine(PLACE);
     await vi.waitFor(() => expect(asked.length).toBe(1));
     expect(waited).toEqual(['film']);
-    expect(asked[0]).toMatchObject({ method: 'refineOnFrame', input: { start: POSE, others: [], frame: { width: 100, height: 100 } } });
+    expect(asked[0]).toMatchObject({ method: 'refineOnFrame', input: { start: POSE, bright: false, others: [], frame: { width: 100, height: 100 } } });
     answer();
     await done;
     expect(cell(store).result).toMatchObject({ reason: expect.stringContaining('dark edges of the frame') });

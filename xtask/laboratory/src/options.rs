@@ -49,10 +49,7 @@ pub fn most(votes: impl IntoIterator<Item = Polarity>) -> Option<Polarity> {
         all += 1;
         bright += usize::from(vote == Polarity::BrightImplant);
     }
-    (all > 0).then(|| match 2 * bright > all {
-        true => Polarity::BrightImplant,
-        false => Polarity::DarkImplant,
-    })
+    (all > 0).then(|| Polarity::of(2 * bright > all))
 }
 
 /// A range of rotations, `first:last:step` in degrees.

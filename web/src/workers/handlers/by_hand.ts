@@ -17,12 +17,12 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
     refineFrom: ({ start, locked, ...input }) =>
       withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
     refineOnFrame: ({ start, locked, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked), filmArray(input.film)))),
+      onFrame(matcherOf, input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked), filmArray(input.film), input.bright))),
     judgeOutline: ({ pose, ...input }) => withTraced(input, (matcher, traced) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose))))),
     judgeOnFrame: ({ pose, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film)))),
+      onFrame(matcherOf, input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film), input.bright))),
     readOnFrame: ({ pose, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => edgesOf(matcher.readOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film)))),
+      onFrame(matcherOf, input, (matcher, image, hidden) => edgesOf(matcher.readOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film), input.bright))),
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),
     viewPose: ({ view, ...input }) =>
       withTraced(input, (matcher, traced) => {

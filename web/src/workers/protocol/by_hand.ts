@@ -15,6 +15,8 @@ export interface OnFrame {
   readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
   /** The outline of which sides are marked unknown, along which edges do not count either; null where none are. */
   readonly unknown: Pick<MatchInput, 'outline' | 'unknownSides'> | null;
+  /** Metal is brighter than what surrounds it; null where that is not known. */
+  readonly bright: boolean | null;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
 }

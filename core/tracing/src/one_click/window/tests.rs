@@ -120,10 +120,7 @@ fn what_is_behind_a_shutter_is_blocked_and_changes_nothing_before_it() {
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
         let shuttered = Shuttered::new(frame, &words).expect("same size");
         let (mut grey, mut memory) = (std::vec![0; window.pixels()], [0; BACKGROUND]);
-        let polarity = match inverted {
-            true => Polarity::BrightImplant,
-            false => Polarity::DarkImplant,
-        };
+        let polarity = Polarity::of(inverted);
         let how = Reading { polarity, ..how };
         levels(&shuttered, &window, how, None, &mut grey, &mut memory);
         grey
