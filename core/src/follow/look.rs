@@ -25,13 +25,13 @@ const LEAST_KNOWN: f64 = 0.5;
 const BESIDE_DEG: f64 = 2.5;
 const BESIDE_PART: f64 = 0.015;
 /// How far around an expected pose is searched, pixels; and farther with each frame in which nothing was found.
-const REACH_PX: f64 = 24.0;
+pub(super) const REACH_PX: f64 = 24.0;
 const FARTHER_PX: f64 = 6.0;
 const FARTHEST_PX: f64 = 72.0;
 /// What it costs to be as far from what was expected as is still in the ordinary, in usual misfits.
 const OFF: f64 = 0.1;
 /// Of the poses around, so many are refined.
-const REFINED: usize = 4;
+pub(super) const REFINED: usize = 4;
 
 /// Why a frame has no pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

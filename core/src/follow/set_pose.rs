@@ -1,6 +1,7 @@
 //! A pose that somebody set, brought onto a frame: from there, and from around there where that leads to none that is good.
 
 use super::joint_places::usual_step;
+use super::look::{REACH_PX, REFINED};
 use super::near::near_poses;
 use super::subject::Subject;
 use crate::finder::{Limits, Verdict, judge_fit};
@@ -8,11 +9,6 @@ use crate::pose::Pose;
 use crate::refine::{
     CameraView, Fit, ImageTarget, RefineError, RefineMemory, Refined, fit_at, refine,
 };
-
-/// How far around it is looked, pixels: a hand lets go of a part beside its edges, not elsewhere.
-const REACH_PX: f64 = 24.0;
-/// Of the places around, so many are refined from.
-const REFINED: usize = 4;
 
 /// Refines from a pose that somebody set. Where that is not good by itself, places around are refined from as well, and the pose is taken that
 /// leaves least between outline and edges. What is locked stays, and then nothing else is looked at.

@@ -95,6 +95,13 @@ export function isNear(a: PoseNumbers, b: PoseNumbers, middle: Vector): boolean 
   return isWithin(NEAR, a, b, middle);
 }
 
+/** Near for whoever has no model at hand: its middle may lie half a metre from its origin, and a turn moves it as far as that says. */
+const NEAR_UNSEEN: Apart = { ...NEAR, turn: 0.02 };
+
+export function isNearUnseen(a: PoseNumbers, b: PoseNumbers): boolean {
+  return isWithin(NEAR_UNSEEN, a, b, [0, 0, 0]);
+}
+
 /** From poses this near the frame itself leads to the same one: a hand that corrects so much changes nothing that was read from there. */
 const REACH: Apart = { aside: 3, depth: 40, turn: 3 };
 

@@ -5,7 +5,7 @@ import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../do
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
-import { isNear } from './film';
+import { isNearUnseen } from './film';
 
 /** Frames that a component is to be followed over, from those that a person set. */
 export interface Span {
@@ -118,11 +118,8 @@ function leadsAmong(given: readonly Given[], frame: number): readonly Given[] {
 function isFromThese(origin: string, given: readonly Given[], frame: number): boolean {
   if (origin.endsWith(keyAmong(given, frame))) return true;
   const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
-  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && isNear(led[at]!.pose, lead.pose, ORIGIN));
+  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && isNearUnseen(led[at]!.pose, lead.pose));
 }
-
-/** Of the model: where its middle is nobody asks for here, and a pose that is near there is near in the middle too, unless that lies far off. */
-const ORIGIN = [0, 0, 0] as const;
 
 /** What `keyAmong` wrote. */
 function ledBy(origin: string): readonly Pick<Given, 'frame' | 'pose'>[] {
