@@ -127,8 +127,27 @@ fn module(to: &Path) -> Result<PathBuf> {
         "the compiler left no index.js with types in {}",
         to.display()
     );
+    types_stand_alone(to)?;
     names_no_folder(to, &folders_here()?)?;
     Ok(to.to_path_buf())
+}
+
+/// Refuses types that import those of `wasm-bindgen`, which want a library of TypeScript that who imports the module may not have asked for.
+fn types_stand_alone(module: &Path) -> Result<()> {
+    for entry in fs::read_dir(module)? {
+        let path = entry?.path();
+        if !path.to_string_lossy().ends_with(".d.ts") {
+            continue;
+        }
+        let types =
+            fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        ensure!(
+            !types.contains("/pkg/"),
+            "{} imports types of pkg: keep what needs them apart from what callers import",
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// Folders of this machine that compilers like to write down.

@@ -55,13 +55,13 @@ unsafe fn list<'a, T>(first: *const T, count: usize) -> Option<&'a [T]> {
 ///
 /// # Safety
 /// What is not null leads to room for a value.
-unsafe fn put<T>(place: *mut T, value: T) -> Status {
+unsafe fn put<T>(place: *mut T, value: T) -> Result<(), Failure> {
     if place.is_null() || !place.is_aligned() {
-        return Status::Pointer;
+        return Err(Failure::Pointer);
     }
     // SAFETY: it is not null and aligned, and there is room by the caller's promise.
     unsafe { place.write(value) };
-    Status::Ok
+    Ok(())
 }
 
 /// The session at a pointer; `None` where it is null, not aligned or none.
@@ -148,8 +148,8 @@ pub unsafe extern "C" fn fluoropose_open(
         return Status::Pointer;
     };
     // SAFETY: the caller's promise.
-    if unsafe { put(finder, core::ptr::null_mut()) } != Status::Ok {
-        return Status::Pointer;
+    if let Err(failure) = unsafe { put(finder, core::ptr::null_mut()) } {
+        return failure.status();
     }
     let memory = memory.cast::<MaybeUninit<Unit>>();
     if memory.is_null() || !memory.is_aligned() || bytes > isize::MAX as usize {
@@ -181,7 +181,7 @@ pub unsafe extern "C" fn fluoropose_open(
             session,
             failure: None,
         });
-        put(finder, place)
+        put(finder, place).map_or_else(|failure| failure.status(), |()| Status::Ok)
     }
 }
 
@@ -199,7 +199,8 @@ pub unsafe extern "C" fn fluoropose_camera_of(
         return Status::Pointer;
     };
     // SAFETY: the caller's promise.
-    unsafe { put(camera, opened.session.camera().into()) }
+    let told = unsafe { put(camera, opened.session.camera().into()) };
+    opened.keep(told)
 }
 
 /// Looks at frames of another camera from now on.
@@ -212,8 +213,11 @@ pub unsafe extern "C" fn fluoropose_set_camera(
     camera: *const CameraNumbers,
 ) -> Status {
     // SAFETY: the caller's promise.
-    let (Some(opened), Some([camera])) = (unsafe { (opened(finder), list(camera, 1)) }) else {
+    let (Some(opened), camera) = (unsafe { (opened(finder), list(camera, 1)) }) else {
         return Status::Pointer;
+    };
+    let Some([camera]) = camera else {
+        return opened.keep(Err(Failure::Pointer));
     };
     opened.look_with(camera.camera())
 }
@@ -228,9 +232,11 @@ pub unsafe extern "C" fn fluoropose_set_calibration(
     calibration: *const CalibrationNumbers,
 ) -> Status {
     // SAFETY: the caller's promise.
-    let (Some(opened), Some([calibration])) = (unsafe { (opened(finder), list(calibration, 1)) })
-    else {
+    let (Some(opened), calibration) = (unsafe { (opened(finder), list(calibration, 1)) }) else {
         return Status::Pointer;
+    };
+    let Some([calibration]) = calibration else {
+        return opened.keep(Err(Failure::Pointer));
     };
     opened.look_with(calibration.camera())
 }
@@ -246,10 +252,11 @@ pub unsafe extern "C" fn fluoropose_outline(
     count: usize,
 ) -> Status {
     // SAFETY: the caller's promise.
-    let (Some(opened), Some(points)) = (unsafe { (opened(finder), list(points, count)) }) else {
+    let (Some(opened), points) = (unsafe { (opened(finder), list(points, count)) }) else {
         return Status::Pointer;
     };
-    let taken = opened.session.outline(points);
+    let points = points.ok_or(Failure::Pointer);
+    let taken = points.and_then(|points| opened.session.outline(points));
     opened.keep(taken)
 }
 
@@ -279,8 +286,11 @@ pub unsafe extern "C" fn fluoropose_row(
     width: usize,
 ) -> Status {
     // SAFETY: the caller's promise.
-    let (Some(opened), Some(pixels)) = (unsafe { (opened(finder), list(pixels, width)) }) else {
+    let (Some(opened), pixels) = (unsafe { (opened(finder), list(pixels, width)) }) else {
         return Status::Pointer;
+    };
+    let Some(pixels) = pixels else {
+        return opened.keep(Err(Failure::Pointer));
     };
     let inside = pixels.iter().map(|&pixel| pixel != 0);
     let added = opened.session.row(row as usize, inside);
@@ -331,11 +341,10 @@ pub unsafe extern "C" fn fluoropose_found_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.session.decision() {
-        // SAFETY: the caller's promise.
-        Ok((numbers, _)) => unsafe { put(found, numbers) },
-        Err(failure) => opened.keep(Err(failure)),
-    }
+    let decision = opened.session.decision();
+    // SAFETY: the caller's promise.
+    let told = decision.and_then(|(numbers, _)| unsafe { put(found, numbers) });
+    opened.keep(told)
 }
 
 /// Tells one of the poses, the best is number 0.
@@ -352,11 +361,10 @@ pub unsafe extern "C" fn fluoropose_candidate_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.session.candidate(number as usize) {
-        // SAFETY: the caller's promise.
-        Ok(numbers) => unsafe { put(candidate, numbers) },
-        Err(failure) => opened.keep(Err(failure)),
-    }
+    let numbers = opened.session.candidate(number as usize);
+    // SAFETY: the caller's promise.
+    let told = numbers.and_then(|numbers| unsafe { put(candidate, numbers) });
+    opened.keep(told)
 }
 
 /// Writes the verdict, or why the last call failed, as a sentence without its full stop, cut off where there is no room and

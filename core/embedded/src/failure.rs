@@ -41,6 +41,9 @@ pub enum Status {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Failure {
+    /// A pointer leads nowhere.
+    #[error("a pointer is null, or its address does not suit what it leads to")]
+    Pointer,
     /// Memory is too short for what was asked for.
     #[error("memory is too short for the room that was asked for")]
     Memory,
@@ -72,6 +75,7 @@ impl Failure {
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
+            Self::Pointer => Status::Pointer,
             Self::Memory => Status::Memory,
             Self::Implant(_) => Status::Implant,
             Self::Camera(_) => Status::Camera,

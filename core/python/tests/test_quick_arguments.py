@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import fluoropose as fp
+from fluoropose import _checks as checks
 from study import DEMO, SIDE, OnTheDemo
 
 
@@ -138,6 +139,14 @@ class Arguments(OnTheDemo):
         self.refused(TypeError, "frame must be an array, not a path", lambda: fp.estimate(None, one, camera, frame=file))
         mask = np.zeros((1, SIDE, SIDE), bool)
         self.refused(TypeError, "frames must be an array, not a path", lambda: fp.estimate_all(mask, one, camera, frames=file))  # type: ignore[arg-type]
+
+    def test_a_frame_of_the_other_byte_order_is_the_same_frame(self) -> None:
+        frame = np.arange(12, dtype=np.uint16).reshape(3, 4) * 1000
+        for swapped in (frame.astype(">u2"), frame.astype("<u2")):
+            native = checks.frame(swapped, "frame")
+            self.assertEqual(native.dtype, np.uint16)
+            np.testing.assert_array_equal(native, frame)
+        self.refused(TypeError, "frame must be of uint8 or uint16, not", lambda: checks.frame(frame.astype(">i2"), "frame"))
 
     def test_messages_name_the_argument_and_no_file_that_nobody_gave(self) -> None:
         frames = np.zeros((2, 64, 48), np.uint8)

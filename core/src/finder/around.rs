@@ -61,8 +61,8 @@ pub fn look_around(
         memory,
         found: Vec::new(),
     };
-    for start in around.starts(&best.pose) {
-        around.refine(&start);
+    for start in around.starts(&best.pose)? {
+        around.refine(&start)?;
         if around
             .found
             .first()
@@ -71,7 +71,7 @@ pub fn look_around(
             break;
         }
     }
-    around.refine_mirror_images();
+    around.refine_mirror_images()?;
     let found = around.assessed(&best)?;
     for candidate in found {
         let same = |other: &Candidate| is_same(&candidate.pose, &other.pose);
@@ -106,21 +106,25 @@ struct Around<'a, 'm> {
 
 impl Around<'_, '_> {
     /// Starts around a pose and its mirror images, the best fits first.
-    fn starts(&mut self, pose: &Pose) -> Vec<Pose, STARTS> {
+    fn starts(&mut self, pose: &Pose) -> Result<Vec<Pose, STARTS>, RefineError> {
         let mut starts: Vec<(f64, Pose), STARTS> = Vec::new();
         let bases =
             core::iter::once(*pose).chain(self.planes.iter().map(|plane| mirror_pose(pose, plane)));
         for base in bases {
             for distance in DISTANCES {
-                for start in self.of_a_distance(&base, distance) {
+                for start in self.of_a_distance(&base, distance)? {
                     keep(&mut starts, start, |&(misfit_px, _)| misfit_px);
                 }
             }
         }
-        starts.into_iter().map(|(_, pose)| pose).collect()
+        Ok(starts.into_iter().map(|(_, pose)| pose).collect())
     }
 
-    fn of_a_distance(&mut self, base: &Pose, distance: f64) -> Vec<(f64, Pose), OF_A_DISTANCE> {
+    fn of_a_distance(
+        &mut self,
+        base: &Pose,
+        distance: f64,
+    ) -> Result<Vec<(f64, Pose), OF_A_DISTANCE>, RefineError> {
         let middle = self.model.bounds().centre;
         let shift = scale(&base.transform(&middle), distance - 1.0);
         let mut best = Vec::new();
@@ -133,21 +137,22 @@ impl Around<'_, '_> {
                 ];
                 let start = about(&middle, base, &turn, shift);
                 // Where the model cannot be drawn is no start.
-                if let Ok(fit) = fit_at(self.model, &[self.view], &start, self.memory) {
+                let fit = fit_at(self.model, &[self.view], &start, self.memory);
+                if let Some(fit) = RefineError::passed_over(fit)? {
                     keep(&mut best, (fit.misfit_px, start), |&(misfit_px, _)| {
                         misfit_px
                     });
                 }
             }
         }
-        best
+        Ok(best)
     }
 
     /// Refines a start; one that leads nowhere is no rival.
-    fn refine(&mut self, start: &Pose) {
-        let views = [self.view];
-        let Ok(refined) = refine(self.model, &views, start, self.options, self.memory) else {
-            return;
+    fn refine(&mut self, start: &Pose) -> Result<(), RefineError> {
+        let tried = refine(self.model, &[self.view], start, self.options, self.memory);
+        let Some(refined) = RefineError::passed_over(tried)? else {
+            return Ok(());
         };
         let same = |(_, other): &(Pose, Refined)| is_same(&other.pose, &refined.pose);
         if self
@@ -155,20 +160,22 @@ impl Around<'_, '_> {
             .iter()
             .any(|other| same(other) && other.1.loss <= refined.loss)
         {
-            return;
+            return Ok(());
         }
         self.found.retain(|other| !same(other));
         keep(&mut self.found, (*start, refined), |(_, refined)| {
             refined.loss
         });
+        Ok(())
     }
 
-    fn refine_mirror_images(&mut self) {
+    fn refine_mirror_images(&mut self) -> Result<(), RefineError> {
         if let Some((_, best)) = self.found.first().copied() {
             for plane in self.planes {
-                self.refine(&mirror_pose(&best.pose, plane));
+                self.refine(&mirror_pose(&best.pose, plane))?;
             }
         }
+        Ok(())
     }
 
     fn assessed(&mut self, best: &Candidate) -> Result<Vec<Candidate, FOUND>, RefineError> {
@@ -229,11 +236,13 @@ mod tests {
         let right = placed([20.0, 30.0, 0.0], [0.0; 3]);
         around_seen(&right, &[], |around| {
             let behind = placed([0.0; 3], [0.0, 0.0, 2000.0]);
-            around.refine(&behind);
+            around.refine(&behind).expect("room");
             assert!(around.found.is_empty());
             let starts =
                 [[21.5, 29.0, 1.0], [19.0, 31.5, -1.0]].map(|turn| placed(turn, [1.0, -1.0, 5.0]));
-            starts.iter().for_each(|start| around.refine(start));
+            for start in &starts {
+                around.refine(start).expect("room");
+            }
             let [(start, refined)] = around.found[..] else {
                 panic!("one pose: {:?}", around.found);
             };
@@ -242,7 +251,7 @@ mod tests {
             // What is there already, and leaves more, makes room for what leaves less.
             around.found[0].1.loss = 1e3;
             around.found[0].0 = behind;
-            around.refine(&start);
+            around.refine(&start).expect("room");
             let lost = around.found.iter().any(|(from, _)| *from == behind);
             assert!(around.found.len() == 1 && !lost);
         });
@@ -259,7 +268,7 @@ mod tests {
         };
         for (distance, turn_deg) in [(1.0, [0.0, 0.0]), (0.96, [4.0, -10.0]), (1.02, [-8.0, 5.0])] {
             let right = at(distance, turn_deg);
-            let starts = around_seen(&right, &[], |around| around.starts(&base));
+            let starts = around_seen(&right, &[], |around| around.starts(&base)).expect("room");
             assert_eq!(starts.len(), DISTANCES.len() * OF_A_DISTANCE);
             // Nothing fits better than the right one.
             let off = subtract(&starts[0].translation, &right.translation);
@@ -289,7 +298,7 @@ mod tests {
             fit: crate::refine::Fit::default(),
         };
         let (found, assessed) = around_seen(&right, &[], |around| {
-            around.refine(&start);
+            around.refine(&start).expect("room");
             (around.found.clone(), around.assessed(&best))
         });
         let assessed = assessed.expect("in front");

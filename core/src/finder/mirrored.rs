@@ -37,7 +37,8 @@ pub(super) fn add_mirror_images(
         if has_one_near(candidates, &start, LOOKED_AT_DEG) {
             continue;
         }
-        let Ok(refined) = refine(model, &[view], &start, options, memory) else {
+        let tried = refine(model, &[view], &start, options, memory);
+        let Some(refined) = RefineError::passed_over(tried)? else {
             continue;
         };
         if has_one_near(candidates, &refined.pose, SAME_DEG) {

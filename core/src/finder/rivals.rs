@@ -117,6 +117,10 @@ impl Rivals {
         let known = |pose: &Pose| poses.is_known(pose);
         let (options, refinement) = (subject.options, &mut self.refinement);
         let ended = ready!(refinement.go_on(seen, options, &known, memory, &mut |_| ()));
+        if let Err(short @ RefineError::Memory(_)) = ended {
+            // The poses that need less of it are not the best ones for that.
+            return Poll::Ready(Err(short));
+        }
         self.take(ended);
         Poll::Pending
     }

@@ -33,3 +33,17 @@ pub enum RefineError {
     )]
     TooFar,
 }
+
+impl RefineError {
+    /// What came of one of several poses: nothing where it cannot be refined, since others may be.
+    ///
+    /// # Errors
+    /// Where memory is too short. Poses that need more of it than others would be missing among these, and a worse one would stand for them.
+    pub fn passed_over<T>(tried: Result<T, Self>) -> Result<Option<T>, Self> {
+        match tried {
+            Ok(refined) => Ok(Some(refined)),
+            Err(short @ Self::Memory(_)) => Err(short),
+            Err(_) => Ok(None),
+        }
+    }
+}

@@ -443,6 +443,55 @@ fn what_there_is_no_room_for_is_refused() {
     }
 }
 
+/// Poses whose outlines are shorter than the right one's would be left over, and the best of these taken.
+#[test]
+fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
+    let (own, bytes) = made_femur();
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let found = |border| {
+        let c = opened(bytes.bytes(), &Room { border, ..ROOM });
+        c.rows(&mask);
+        // SAFETY: an open session.
+        match unsafe { fluoropose_find(c.finder) } {
+            Status::Ok => Ok(c.candidate(0).rotation),
+            status => Err((status, c.sentence())),
+        }
+    };
+    let plenty = found(ROOM.border).expect("found");
+    let mut refused = 0;
+    for border in (300..700).step_by(5) {
+        match found(border) {
+            Ok(rotation) => assert_eq!(rotation, plenty, "{border}"),
+            Err((status, sentence)) => {
+                assert_eq!(status, Status::NoPose);
+                assert!(
+                    sentence.contains(&format!("{border} were given")),
+                    "{sentence}"
+                );
+                refused += 1;
+            }
+        }
+    }
+    assert!((1..80).contains(&refused), "{refused} refused");
+}
+
+#[test]
+fn a_pointer_to_nothing_is_told_in_place_of_what_was_told_before() {
+    let (_, bytes) = made_femur();
+    let c = opened(bytes.bytes(), &ROOM);
+    // SAFETY: an open session; no pointer leads to what is not there.
+    unsafe {
+        assert_eq!(fluoropose_find(c.finder), Status::Order);
+        let told_in_order = c.sentence();
+        assert_eq!(fluoropose_outline(c.finder, null(), 4), Status::Pointer);
+        let told = c.sentence();
+        assert!(told.contains("pointer") && told != told_in_order, "{told}");
+        assert_eq!(fluoropose_camera_of(c.finder, null_mut()), Status::Pointer);
+        assert_eq!(c.sentence(), told);
+    }
+}
+
 #[test]
 fn no_outline_ends_the_program() {
     let (_, bytes) = made_femur();

@@ -24,7 +24,12 @@ export function checkOutline(outline: unknown): asserts outline is readonly Poin
 
 export function checkHints(hints: unknown, frame: Size, from: string): void {
   const given = known(hints, HINTS, from);
-  const { femur, tibia, neighbours = [], image } = given;
+  const { unknownSides = [], femur, tibia, neighbours = [], image, film } = given;
+  const isSide = (side: unknown) => Number.isInteger(side) && (side as number) >= 0;
+  if (!Array.isArray(unknownSides) || !unknownSides.every(isSide)) {
+    throw new Error(`${from}: unknownSides should be an array of whole numbers from 0, side i from point i of the outline to the next`);
+  }
+  if (film && !image) throw new Error(`${from}: film says how an image is to be read; give the image too, or leave film out`);
   if (image !== undefined && image !== null) checkImage(image, frame, from);
   for (const [name, pose] of Object.entries({ femur, tibia })) if (pose !== undefined) checkPose(pose, `${from}: ${name}`);
   if (!Array.isArray(neighbours)) throw new Error(`${from}: neighbours should be an array of poses`);

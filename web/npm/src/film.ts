@@ -1,6 +1,5 @@
-import { isEightBit } from './asked.js';
-import { FilmStudy, FrameImage } from './pkg/core/fluoropose_wasm.js';
-import type { Film, FilmConstants, Grey, Pose, Size, StatedFilm } from './types.js';
+import { FilmStudy } from './pkg/core/fluoropose_wasm.js';
+import type { FilmConstants, Grey, Hints, Pose, StatedFilm } from './types.js';
 
 /** Who reads profiles across the outline of its model: an `Implant`. */
 export interface Reader {
@@ -43,18 +42,8 @@ export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm 
 }
 
 /** The numbers of a film for an implant, as WebAssembly takes them; none where nothing is known. */
-export function filmNumbers(film: Film | FilmConstants | undefined, implant: object): Float64Array {
+export function filmNumbers(film: Hints['film'], implant: object): Float64Array {
   if (!film) return new Float64Array();
   if ('models' in film) return Float64Array.from(film.models.get(implant) ?? []);
   return Float64Array.of(film.curvature, film.blur, film.attenuation);
-}
-
-/** Calls `work` with a frame in WebAssembly's memory. */
-export function withImage<T>(pixels: Grey, { width, height }: Size, work: (image: FrameImage) => T): T {
-  const image = isEightBit(pixels) ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
-  try {
-    return work(image);
-  } finally {
-    image.free();
-  }
 }

@@ -1,6 +1,7 @@
 import { checkHints, checkImage, checkOptions, checkOutline, checkPose } from './asked.js';
 import { decodeModel } from './decode.js';
-import { filmNumbers, withImage } from './film.js';
+import { filmNumbers } from './film.js';
+import { withImage } from './frame_image.js';
 import { buildLibrary } from './library.js';
 import init, { cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';

@@ -115,8 +115,8 @@ export interface Hints {
   readonly image?: Grey;
   /** Metal is brighter in it than what surrounds it; the frame tells where this is left out. */
   readonly bright?: boolean;
-  /** What the film makes of the implant: without it depth from `image` is uncertain by millimetres. */
-  readonly film?: Film | FilmConstants;
+  /** What the film makes of `image`, null where that is not known: depth is uncertain by millimetres then. */
+  readonly film?: Film | FilmConstants | null;
 }
 
 /** One pose that explains an outline. */

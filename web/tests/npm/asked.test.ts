@@ -30,6 +30,9 @@ describe('what the npm module is asked', () => {
     expect(() => checkHints({ other: POSE }, FRAME, 'pose')).toThrow(/pose has no option other; it has unknownSides/);
     expect(() => checkHints({ femur: { pose: POSE } }, FRAME, 'pose')).toThrow(/femur should be a pose/);
     expect(() => checkHints({ neighbours: POSE }, FRAME, 'pose')).toThrow(/neighbours should be an array of poses/);
+    for (const unknownSides of [['a'], [NaN], [1.5], [-1], 2]) expect(() => checkHints({ unknownSides }, FRAME, 'pose')).toThrow(/unknownSides should be an array of whole numbers/);
+    expect(() => checkHints({ unknownSides: [0, 7], film: null }, FRAME, 'pose')).not.toThrow();
+    expect(() => checkHints({ film: { curvature: 0, blur: 1, attenuation: 0.3 } }, FRAME, 'pose')).toThrow(/give the image too/);
   });
 
   it.each([

@@ -92,11 +92,12 @@ def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
 def frame(value: ArrayLike, name: str) -> NDArray[Any]:
     """A grey frame of 8 or 16 bits."""
     array = pixels(value, True, name)
-    if array.dtype not in (np.uint8, np.uint16):
+    native = array.dtype.newbyteorder("=")
+    if native not in (np.uint8, np.uint16):
         raise TypeError(f"{name} must be of uint8 or uint16, not {array.dtype}")
     if array.ndim != 2 or 0 in array.shape:
         raise ValueError(f"{name} must have the shape (rows, columns), not {array.shape}")
-    return np.asarray(array, dtype=array.dtype.newbyteorder("="))
+    return np.asarray(array, dtype=native)
 
 
 def numbers(value: ArrayLike, shape: tuple[int | None, ...], name: str) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ use super::support::second_slope;
 use fluoropose::finder::Component;
 use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use fluoropose::refine::{
-    CameraView, OutlineSample, RefineOptions, Refined, outline_samples, refine,
+    CameraView, OutlineSample, RefineError, RefineOptions, Refined, outline_samples, refine,
 };
 
 /// A second edge lies at least so far beyond an outline, pixels: nearer it is the first one's own blur.
@@ -98,7 +98,8 @@ impl OneClick {
         let view = CameraView::only(observation.camera, &moved);
         let (model, start) = (component.model, &inner.refined.pose);
         let options = RefineOptions::default();
-        let Ok(onto) = refine(model, &[view], start, options, &mut memory.refine) else {
+        let tried = refine(model, &[view], start, options, &mut memory.refine);
+        let Some(onto) = RefineError::passed_over(tried)? else {
             return Ok(Beyond::Nothing);
         };
         let scorer = self.scorer(observation, component);

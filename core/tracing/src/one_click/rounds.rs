@@ -188,7 +188,7 @@ impl OneClick {
         };
         let pose = mirror_pose(&best.refined.pose, plane);
         let scorer = self.scorer(observation, component);
-        if scorer.strength(&pose, memory) < MIRRORED * best.support.strength {
+        if scorer.strength(&pose, memory)? < MIRRORED * best.support.strength {
             return Ok(true);
         }
         if let Some(answer) = scorer.onto_frame(&pose, memory)? {

@@ -12,9 +12,9 @@ use super::support::support;
 use fluoropose::finder::Component;
 use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::locate::locate;
+use fluoropose::locate::{LocateError, locate};
 use fluoropose::pose::Pose;
-use fluoropose::refine::{CameraView, RefineOptions, Refined, refine};
+use fluoropose::refine::{CameraView, RefineError, RefineOptions, Refined, refine};
 
 /// Number of poses that are located for a region.
 const MINIMA: usize = 3;
@@ -63,9 +63,10 @@ impl PoseScorer<'_> {
         let [shape, _] = self.masks(memory.words)?;
         let (camera, library) = (self.observation.camera, self.component.library);
         let work = memory.workspace.reborrow();
-        let Ok(found) = locate::<MINIMA>(&shape, camera, library, work) else {
+        let found = match locate::<MINIMA>(&shape, camera, library, work) {
             // A shapeless region has no pose.
-            return Ok(Vec::new());
+            Err(LocateError::Canonical(_)) => return Ok(Vec::new()),
+            found => found?,
         };
         let area = f64::from(library.info().canonical.area());
         let located_poses = found.poses.iter().map(|located| LocatedPose {
@@ -94,8 +95,8 @@ impl PoseScorer<'_> {
         let [shape, _] = self.masks(memory.words)?;
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
         let (observation, model) = (self.observation, self.component.model);
-        let Ok(support) = support(observation, model, &located.pose, how, &mut memory.refine)
-        else {
+        let found = support(observation, model, &located.pose, how, &mut memory.refine);
+        let Some(support) = RefineError::passed_over(found)? else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
@@ -130,7 +131,7 @@ impl PoseScorer<'_> {
             let view = CameraView::only(self.observation.camera, silhouette);
             let (model, options) = (self.component.model, RefineOptions::default());
             let onto = refine(model, &[view], &start.pose, options, &mut memory.refine);
-            if let Ok(onto) = onto
+            if let Some(onto) = RefineError::passed_over(onto)?
                 && let Some(better) = self.score(&located_at(&onto.pose, start), memory)?
                 && better.score > start.score
             {
@@ -150,9 +151,9 @@ impl PoseScorer<'_> {
         let view = CameraView::only(self.observation.camera, target);
         let (model, options) = (self.component.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);
-        match refined {
-            Ok(refined) => self.answer(refined, pose, memory),
-            Err(_) => Ok(None),
+        match RefineError::passed_over(refined)? {
+            Some(refined) => self.answer(refined, pose, memory),
+            None => Ok(None),
         }
     }
 
@@ -167,13 +168,14 @@ impl PoseScorer<'_> {
             return Ok(None);
         }
         let (model, how) = (self.component.model, (CLOSE, self.slope));
-        let Ok(support) = support(
+        let found = support(
             self.observation,
             model,
             &refined.pose,
             how,
             &mut memory.refine,
-        ) else {
+        );
+        let Some(support) = RefineError::passed_over(found)? else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
@@ -187,7 +189,11 @@ impl PoseScorer<'_> {
     }
 
     /// Strength of the edges near the model's outline at a pose; 0 where the model cannot be drawn.
-    pub(super) fn strength(&self, pose: &Pose, memory: &mut OneClickMemory<'_>) -> f64 {
+    pub(super) fn strength(
+        &self,
+        pose: &Pose,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<f64, OneClickError> {
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
         let found = support(
             self.observation,
@@ -196,7 +202,8 @@ impl PoseScorer<'_> {
             how,
             &mut memory.refine,
         );
-        found.map_or(0.0, |support| support.strength)
+        let found = RefineError::passed_over(found)?;
+        Ok(found.map_or(0.0, |support| support.strength))
     }
 }
 

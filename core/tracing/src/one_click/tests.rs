@@ -11,7 +11,7 @@ use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::locate::{Workspace, workspace_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::refine::{BorderPixel, Polarity, RefineMemory, places_needed};
+use fluoropose::refine::{BorderPixel, Polarity, RefineError, RefineMemory, places_needed};
 use fluoropose::render::{Projected, render};
 use fluoropose::search::kernels::Kernels;
 use std::vec::Vec;
@@ -145,6 +145,8 @@ struct Bench {
     library: Vec<u8>,
     /// Whether it is looked for farther away too.
     farther: bool,
+    /// Border pixels of an outline that there is memory for.
+    border: usize,
 }
 
 impl Bench {
@@ -161,6 +163,7 @@ impl Bench {
             triangles,
             library,
             farther: false,
+            border: 4096,
         }
     }
 
@@ -229,7 +232,7 @@ impl Bench {
                 projected: &mut std::vec![Projected::default(); model.vertices().len()],
                 drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
                 places: &mut std::vec![0; places_needed(SIDE)],
-                border: &mut std::vec![BorderPixel::default(); 4096],
+                border: &mut std::vec![BorderPixel::default(); self.border],
                 film: LineMemory::default(),
             },
         };
@@ -307,6 +310,38 @@ fn a_click_or_a_box_leads_to_outline_and_pose() {
             assert!(best.support.fraction > 0.8, "{what}: {:?}", best.support);
         }
     }
+}
+
+/// Poses whose outlines are shorter than the right one's would be left over, and the best of these taken.
+#[test]
+fn with_too_little_memory_for_an_outline_nothing_is_found_and_the_memory_is_named() {
+    let mut bench = Bench::new();
+    let pixels = drawn(&bench.model(), false);
+    let polarity = Polarity::DarkImplant;
+    let mut refused = 0;
+    let (plenty, _) = bench
+        .work(&pixels, prompts()[0], polarity, true)
+        .expect("an answer");
+    for border in (400..900).step_by(50) {
+        bench.border = border;
+        match bench.work(&pixels, prompts()[0], polarity, true) {
+            Ok((found, _)) => {
+                let poses = |work: &OneClick| {
+                    work.answers()
+                        .iter()
+                        .map(|answer| answer.refined.pose)
+                        .collect::<Vec<_>>()
+                };
+                assert_eq!(poses(&found), poses(&plenty), "{border}");
+            }
+            Err(OneClickError::Refine(RefineError::Memory(short))) => {
+                assert_eq!((short.what, short.given), ("border pixels", border));
+                refused += 1;
+            }
+            Err(other) => panic!("{border}: {other}"),
+        }
+    }
+    assert!((1..10).contains(&refused), "{refused} refused");
 }
 
 /// The wall of a tray lets light through: what is dark has a sharp edge of its own, and the model fits inside of it, farther

@@ -62,6 +62,8 @@ const LIBRARIES: [(usize, f64); 6] = [
     (128, 1.0),
     (256, 1.0),
 ];
+/// The same of all directions, of which there are fifty times as many: steps of a degree would be 64 800 views.
+const AROUND: [(usize, f64); 5] = [(64, 10.0), (64, 5.0), (64, 2.5), (128, 5.0), (128, 2.5)];
 /// Side and area of the usual canonical frame: the others hold the same part.
 const USUAL: CanonicalSpec = CanonicalSpec::USUAL;
 /// Poses that are drawn and found again.
@@ -86,6 +88,16 @@ pub(super) struct Order<'o> {
     pub(super) grid: ViewGrid,
     pub(super) distance: f64,
     pub(super) flash: usize,
+}
+
+impl Order<'_> {
+    /// Those that are tried, the smallest first.
+    fn libraries(&self) -> &'static [(usize, f64)] {
+        match self.grid.is_around() {
+            true => &AROUND,
+            false => &LIBRARIES,
+        }
+    }
 }
 
 /// One row of the table.
@@ -127,7 +139,7 @@ fn finest_that_fits(order: &Order<'_>, smallest: &Trial) -> Result<Surface> {
     let room = order.flash.saturating_sub(smallest.library_bytes) as f64;
     let may = |triangles: usize| each * triangles as f64 <= NEARLY * room;
     let fits = |surface: &Surface| {
-        let file = surface.file(&library_of(order, surface, LIBRARIES[0])?)?;
+        let file = surface.file(&library_of(order, surface, order.libraries()[0])?)?;
         Ok(file.len() <= order.flash)
     };
     Surface::finest_that_fits(&order.model, may, fits)
@@ -250,7 +262,7 @@ fn trials(
     silhouettes: &[(Pose, Vec<u32>)],
 ) -> Result<Vec<Trial>> {
     let trial = |&kind| trial(order, surface, kind, silhouettes);
-    LIBRARIES.iter().map(trial).collect()
+    order.libraries().iter().map(trial).collect()
 }
 
 /// The bytes of a library of a surface.
