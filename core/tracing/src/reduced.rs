@@ -11,8 +11,9 @@ use fluoropose::image::shuttered::Shuttered;
 use fluoropose::memory::{TooLittleMemory, first};
 use fluoropose::refine::ImageTarget;
 
-/// Square root of the area that a component has in a frame that was reduced, pixels: an outline of some 500, which tells a pose to a degree.
-const SIZE: f64 = 112.0;
+/// Square root of the area that a component has in a frame that was reduced, pixels: an outline of some 330. The frame itself makes a pose
+/// exact; noise and blur that hide the right pose in finer pixels are averaged here.
+const SIZE: f64 = 75.0;
 /// Frames are not reduced by less: it saves little, and softens what is sharp.
 const LEAST: f64 = 1.5;
 /// A pixel that stands for many is the mean of readings at these parts of its side to either side of its middle.
@@ -197,12 +198,12 @@ mod tests {
 
     #[test]
     fn small_things_stay_as_they_are_and_large_ones_become_alike() {
-        for size in [50.0, 112.0, 167.0, f64::NAN] {
+        for size in [50.0, SIZE, 1.49 * SIZE, f64::NAN] {
             let reduction = Reduction::of(size, &camera());
             assert!(!reduction.is_any(), "{size}");
             assert_eq!(*reduction.camera(), camera());
         }
-        let reduction = Reduction::of(448.0, &camera());
+        let reduction = Reduction::of(4.0 * SIZE, &camera());
         assert_eq!(reduction.times, 4.0);
         let reduced = reduction.camera();
         assert_eq!([reduced.width(), reduced.height()], [SIDE / 4; 2]);
@@ -230,7 +231,7 @@ mod tests {
         };
         let needs = reduced_needed(&camera());
         let mut room = (std::vec![7; needs.pixels], std::vec![7; needs.words]);
-        let reduction = Reduction::of(448.0, &camera());
+        let reduction = Reduction::of(4.0 * SIZE, &camera());
         let mut memory = ReducedMemory {
             pixels: &mut room.0,
             unknown: &mut room.1,

@@ -10,7 +10,7 @@ use fluoropose::image::shuttered::Shuttered;
 use fluoropose::math::{Vector3, norm, sqrt, subtract};
 use fluoropose::memory::TooLittleMemory;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::refine::{ImageTarget, RefineMemory};
+use fluoropose::refine::{ImageTarget, RefineError, RefineMemory};
 use heapless::Vec;
 
 use crate::one_click::{
@@ -283,7 +283,10 @@ impl WholeFrame {
             self.compare(subject, [image, seen], &mut memory.refine);
         }
         // A click may lead nowhere.
-        if let Err(OneClickError::Memory(error)) = step {
+        if let Err(
+            OneClickError::Memory(error) | OneClickError::Refine(RefineError::Memory(error)),
+        ) = step
+        {
             return Err(error.into());
         }
         self.at += 1;
