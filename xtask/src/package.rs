@@ -132,13 +132,12 @@ fn module(to: &Path) -> Result<PathBuf> {
     Ok(to.to_path_buf())
 }
 
+/// What callers import the types of, and what these import.
+const TYPES: [&str; 3] = ["index.d.ts", "film.d.ts", "types.d.ts"];
+
 /// Refuses types that import those of `wasm-bindgen`, which want a library of TypeScript that who imports the module may not have asked for.
 fn types_stand_alone(module: &Path) -> Result<()> {
-    for entry in fs::read_dir(module)? {
-        let path = entry?.path();
-        if !path.to_string_lossy().ends_with(".d.ts") {
-            continue;
-        }
+    for path in TYPES.map(|name| module.join(name)) {
         let types =
             fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
         ensure!(
