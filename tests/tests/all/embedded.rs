@@ -2,6 +2,7 @@
 #![expect(unsafe_code, reason = "functions for C are called as C calls them")]
 
 mod header;
+mod room;
 
 use std::collections::BTreeMap;
 use std::ptr::{null, null_mut};
@@ -398,82 +399,6 @@ fn pointers_that_lead_nowhere_give_an_error_in_a_session() {
         );
         assert_eq!(fluoropose_sentence(finder, null_mut(), 5), length);
     }
-}
-
-#[test]
-fn what_there_is_no_room_for_is_refused() {
-    let (own, bytes) = made_femur();
-    let words = drawn(&own, poses().nth(2).expect("some"));
-    let mask = Mask::new(&words, 512, 512).expect("valid");
-    let small = opened(
-        bytes.bytes(),
-        &Room {
-            columns: 64,
-            rows: 64,
-            ..ROOM
-        },
-    );
-    small.rows(&mask);
-    // SAFETY: open sessions; rows are as long as is said.
-    unsafe {
-        assert_eq!(fluoropose_find(small.finder), Status::Silhouette);
-        let short = opened(bytes.bytes(), &Room { border: 50, ..ROOM });
-        short.rows(&mask);
-        assert_eq!(fluoropose_find(short.finder), Status::NoPose);
-        assert!(
-            short.sentence().contains("50 were given"),
-            "{}",
-            short.sentence()
-        );
-        let few = opened(bytes.bytes(), &Room { runs: 1, ..ROOM });
-        assert_eq!(fluoropose_begin_rows(few.finder), Status::Ok);
-        assert_eq!(
-            fluoropose_row(few.finder, 0, [1, 0, 1].as_ptr(), 3),
-            Status::Rows
-        );
-        assert_eq!(fluoropose_begin_rows(few.finder), Status::Ok);
-        assert_eq!(
-            fluoropose_row(few.finder, 0, [1; 600].as_ptr(), 600),
-            Status::Rows
-        );
-        assert_eq!(
-            fluoropose_row(few.finder, 600, [1].as_ptr(), 1),
-            Status::Order
-        );
-    }
-}
-
-/// Poses whose outlines are shorter than the right one's would be left over, and the best of these taken.
-#[test]
-fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
-    let (own, bytes) = made_femur();
-    let words = drawn(&own, poses().nth(2).expect("some"));
-    let mask = Mask::new(&words, 512, 512).expect("valid");
-    let found = |border| {
-        let c = opened(bytes.bytes(), &Room { border, ..ROOM });
-        c.rows(&mask);
-        // SAFETY: an open session.
-        match unsafe { fluoropose_find(c.finder) } {
-            Status::Ok => Ok(c.candidate(0).rotation),
-            status => Err((status, c.sentence())),
-        }
-    };
-    let plenty = found(ROOM.border).expect("found");
-    let mut refused = 0;
-    for border in (300..700).step_by(5) {
-        match found(border) {
-            Ok(rotation) => assert_eq!(rotation, plenty, "{border}"),
-            Err((status, sentence)) => {
-                assert_eq!(status, Status::NoPose);
-                assert!(
-                    sentence.contains(&format!("{border} were given")),
-                    "{sentence}"
-                );
-                refused += 1;
-            }
-        }
-    }
-    assert!((1..80).contains(&refused), "{refused} refused");
 }
 
 #[test]
