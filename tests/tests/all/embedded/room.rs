@@ -5,7 +5,7 @@ use fluoropose_embedded::exports::*;
 use fluoropose_embedded::{Room, Status};
 
 use super::{ROOM, opened};
-use crate::made_implant::{drawn, made_femur, poses};
+use crate::made_implant::{drawn, made_femur, made_tibia, poses};
 
 #[test]
 fn what_there_is_no_room_for_is_refused() {
@@ -50,11 +50,12 @@ fn what_there_is_no_room_for_is_refused() {
     }
 }
 
-/// Poses whose outlines are shorter than the right one's would be left over, and the best of these taken.
+/// Poses whose outlines are shorter than the right one's would be left over, and the best of these taken: so it was of this tray with room for
+/// 289 to 299 pixels, where the right pose takes 300.
 #[test]
 fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
-    let (own, bytes) = made_femur();
-    let words = drawn(&own, poses().nth(2).expect("some"));
+    let (own, bytes) = made_tibia();
+    let words = drawn(&own, poses().nth(6).expect("some"));
     let mask = Mask::new(&words, 512, 512).expect("valid");
     let found = |border| {
         let c = opened(bytes.bytes(), &Room { border, ..ROOM });
@@ -67,7 +68,7 @@ fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
     };
     let plenty = found(ROOM.border).expect("found");
     let mut refused = 0;
-    for border in (300..700).step_by(5) {
+    for border in 270..310 {
         match found(border) {
             Ok(rotation) => assert_eq!(rotation, plenty, "{border}"),
             Err((status, sentence)) => {
@@ -80,5 +81,5 @@ fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
             }
         }
     }
-    assert!((1..80).contains(&refused), "{refused} refused");
+    assert!((1..40).contains(&refused), "{refused} refused");
 }
