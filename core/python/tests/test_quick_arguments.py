@@ -115,6 +115,10 @@ class Arguments(OnTheDemo):
         with self.assertWarnsRegex(UserWarning, f"these are {less} pixels, those before {whole}"):
             found = fp.estimate(half, self.femur, camera)
         self.assertIn("size=(columns, rows)", found.remarks[-1])
+        # One mask of another size is told at each change, and spoils nothing for good.
+        with self.assertWarnsRegex(UserWarning, f"these are {whole} pixels, those before {less}"):
+            fp.estimate(np.zeros((SIDE, SIDE), bool), self.femur, camera)
+        self.assertEqual(fp.estimate(np.zeros((SIDE, SIDE), bool), self.femur, camera).remarks, ())
         fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
         small = fp.Camera.from_intcalib(file)
         fp.estimate(half, self.femur, small)
@@ -122,7 +126,7 @@ class Arguments(OnTheDemo):
             film = fp.track(DEMO / "frames", self.femur, None, small, "left", fixed=fixed)
         self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
         sized = fp.Camera.from_intcalib(file, size=(SIDE, SIDE))
-        self.refused(ValueError, f"masks: {less} pixels, but camera is for {whole}", lambda: fp.estimate(half, self.femur, sized))
+        self.refused(ValueError, f"mask: {less} pixels, but camera is for {whole}", lambda: fp.estimate(half, self.femur, sized))
         wrong = fp.Camera.from_intcalib(file, size=(SIDE // 2, SIDE // 2))
         self.refused(ValueError, f"frames: {whole} pixels", lambda: fp.track(DEMO / "frames", self.femur, None, wrong, "left"))
         assert sized.K is not None
@@ -194,10 +198,15 @@ class Arguments(OnTheDemo):
         refused(ValueError, "masks ", lambda: fp.estimate_all(mask, one, self.camera))
         refused(TypeError, "model ", lambda: fp.estimate(mask, "femur.stl", self.camera))  # type: ignore[arg-type]
         refused(TypeError, "camera ", lambda: fp.estimate(mask, one, None))  # type: ignore[arg-type]
-        refused(ValueError, f"masks: {SIDE}", lambda: fp.estimate(mask, one, small))
+        refused(ValueError, f"mask: {SIDE}", lambda: fp.estimate(mask, one, small))
+        refused(ValueError, f"masks: {SIDE}", lambda: fp.estimate_all(mask[None], one, small))
+        refused(ValueError, "none of them 0, not (0, ", lambda: fp.estimate_all(mask[None][:0], one, self.camera))
+        refused(ValueError, "masks must be an array: its rows", lambda: fp.estimate_all([[[0, 1], [1]]], one, self.camera))
+        refused(ValueError, "frame must have the shape of the mask", lambda: fp.estimate(mask, one, self.camera, frame=np.zeros((4, 4), np.uint8)))
         refused(ValueError, "method ", lambda: fp.estimate(mask, one, self.camera, method="guess"))
-        refused(ValueError, "frames ", lambda: fp.estimate(mask, one, self.camera, method="image"))
-        refused(ValueError, "unknown ", lambda: fp.estimate(mask, one, self.camera, unknown=mask[:5]))
+        refused(ValueError, "frame ", lambda: fp.estimate(mask, one, self.camera, method="image"))
+        refused(ValueError, "frames ", lambda: fp.estimate_all(mask[None], one, self.camera, method="image"))
+        refused(ValueError, "unknown must have the shape of the mask,", lambda: fp.estimate(mask, one, self.camera, unknown=mask[:5]))
         refused(ValueError, "role ", lambda: fp.estimate(mask, one, self.camera, beside=poses[:1]))
         refused(ValueError, "beside ", lambda: fp.estimate(mask, one, self.camera, role="femur", beside=poses))
         refused(ValueError, "distance_mm ", lambda: fp.estimate(mask, one, self.camera, distance_mm=-1))
@@ -217,6 +226,8 @@ class Arguments(OnTheDemo):
         refused(ValueError, "'patella'", lambda: fp.track(frames, one, two, self.camera, "left", fixed={"patella": poses}))
         refused(TypeError, "progress ", lambda: fp.track(frames, one, two, self.camera, "left", progress=1))  # type: ignore[arg-type]
         refused(ValueError, "K ", lambda: fp.Camera(np.eye(4), (64, 64)))
+        refused(ValueError, "K[1][2] is nan", lambda: fp.Camera([[200, 0, 31], [0, 200, np.nan], [0, 0, 1]], (64, 64)))
+        refused(ValueError, "size must be of columns and rows above 0, not (-1, 64)", lambda: fp.Camera(np.eye(3), (-1, 64)))
         refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), 64))  # type: ignore[arg-type]
         refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), (64.5, 64)))  # type: ignore[arg-type]
         refused(TypeError, "clicks[0]: frame ", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[fp.Click("femur", 0.5, 1, 1)]))  # type: ignore[arg-type]

@@ -435,3 +435,66 @@ fn is_good(found: &FramePose, demands: &Demands) -> bool {
         && found.misfit_px <= demands.most_px
         && found.fit.known >= LEAST_KNOWN
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::*;
+    use crate::PlacesBuffers;
+    use crate::one_click::tests::{library, model, pose};
+    use fluoropose::finder::FinderBuffers;
+    use fluoropose::image::frame::Frame;
+    use fluoropose::image::mask::{Mask, MaskMut, words_needed};
+    use fluoropose::library::Library;
+    use fluoropose::mesh::Model;
+    use fluoropose::refine::Polarity;
+    use fluoropose::render::{Projected, render};
+    use fluoropose::search::kernels::Kernels;
+
+    /// Widths of the frames in which the first click searches, where there is any, of frames that are so many pixels wide.
+    fn searched(side: usize) -> [Option<usize>; 3] {
+        let (vertices, triangles) = model();
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let bytes = library(model, 1000.0);
+        let library = Library::open(&bytes).expect("a library");
+        let times = side as f64 / 384.0;
+        let camera = Camera::new(side, side, [1800.0 * times; 2], [192.0 * times; 2]);
+        let camera = camera.expect("valid");
+        let mut words = std::vec![0; words_needed(side, side)];
+        let mut mask = MaskMut::new(&mut words, side, side).expect("fits");
+        let mut scratch = std::vec![Projected::default(); vertices.len()];
+        render(&model, &camera, &pose(), &mut scratch, &mut mask).expect("in front");
+        let mask = Mask::new(&words, side, side).expect("valid");
+        let grey = |k: usize| match mask.get(k % side, k / side) {
+            true => 9000,
+            false => 20_000 + 4 * (k % side) as u16,
+        };
+        let pixels: std::vec::Vec<u16> = (0..side * side).map(grey).collect();
+        let frame = Frame::new(&pixels, side, side, side).expect("fits");
+        let image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let component = Component {
+            library: &library,
+            model: &model,
+            planes: &[],
+        };
+        let (mut buffers, mut finder) = (PlacesBuffers::default(), FinderBuffers::default());
+        let mut memory = buffers.borrow(&camera, finder.workspace(&library, Kernels::PORTABLE));
+        [Places::Shaped, Places::Dark, Places::All].map(|places| {
+            let begun = WholeFrame::new(&image, &component, &camera, (places, None), &mut memory);
+            let search = begun.expect("enough memory");
+            search.needs().map(|_| search.reduction.camera().width())
+        })
+    }
+
+    #[test]
+    fn large_things_are_looked_for_from_afar_and_small_ones_as_they_are() {
+        let [shaped, dark, all] = searched(1536).map(Option::unwrap_or_default);
+        assert!(0 < shaped && shaped < 1536 / 2, "{shaped}");
+        assert_eq!([dark, all], [shaped; 2]);
+        assert_eq!(searched(192), [Some(192); 3]);
+    }
+}

@@ -29,11 +29,14 @@ class Camera:
     """What is unusual of it, most often because the calibration is wrong."""
     _calibration: Calibration = field(repr=False, compare=False)
     text: str = field(repr=False)
-    _seen: set[tuple[int, int]] = field(compare=False)
-    """Sizes of frames that were seen with it."""
+    _seen: list[tuple[int, int]] = field(compare=False)
+    """Size of the frames that were seen with it last, where there were any."""
 
     def __init__(self, K: ArrayLike, size: tuple[int, int]) -> None:
         matrix = _checks.numbers(K, (3, 3), "K")
+        if not np.isfinite(matrix).all():
+            row, column = np.argwhere(~np.isfinite(matrix))[0]
+            raise ValueError(f"K must be of finite numbers; K[{row}][{column}] is {matrix[row, column]}")
         width, height = _size(size)
         rows = "\n".join(",".join(repr(float(number)) for number in row) for row in matrix)
         text = f"image size\n{width},{height}\n\ncamera matrix\n{rows}\n"
@@ -96,7 +99,7 @@ class Camera:
             ("remarks", remarks),
             ("_calibration", calibration),
             ("text", calibration.text()),
-            ("_seen", set()),
+            ("_seen", []),
         ):
             object.__setattr__(self, name, value)
 
@@ -114,9 +117,9 @@ class Camera:
         return doubts
 
     def others(self, width: int, height: int) -> list[str]:
-        """That frames of another size were seen with it before: it can be of one size alone."""
-        others = sorted(self._seen - {(width, height)})
-        self._seen.add((width, height))
+        """That frames of another size were seen with it just before: it can be of one size alone."""
+        others = [size for size in self._seen if size != (width, height)]
+        self._seen[:] = [(width, height)]
         return [
             f"camera: these are {width} x {height} pixels, those before {columns} x {rows}: a calibration is of frames of one size, neither scaled "
             "nor cut; state it, as in Camera.from_intcalib(path, size=(columns, rows))"
@@ -134,4 +137,7 @@ def _size(value: tuple[int, int]) -> tuple[int, int]:
         columns, rows = value
     except (TypeError, ValueError) as error:
         raise TypeError("size must be (columns, rows)") from error
-    return _checks.whole(columns, "size"), _checks.whole(rows, "size")
+    size = _checks.whole(columns, "size"), _checks.whole(rows, "size")
+    if min(size) < 1:
+        raise ValueError(f"size must be of columns and rows above 0, not {size}")
+    return size

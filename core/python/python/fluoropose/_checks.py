@@ -73,7 +73,10 @@ def pixels(value: ArrayLike, one: bool, name: str) -> NDArray[Any]:
     if is_path(value):
         remedy = f"fluoropose.read_frames(path){'[0]' if one else ''}"
         raise TypeError(f"{name} must be an array, not a path: read the file with {remedy}")
-    return np.asarray(value)
+    try:
+        return np.asarray(value)
+    except ValueError as error:
+        raise ValueError(f"{name} must be an array: its rows, or frames, differ in length") from error
 
 
 def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
@@ -83,7 +86,7 @@ def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
         raise TypeError(f"{name} must be of booleans or whole numbers, not {array.dtype}")
     if array.ndim != dimensions or 0 in array.shape:
         shape = "(rows, columns)" if dimensions == 2 else "(frames, rows, columns)"
-        raise ValueError(f"{name} must have the shape {shape}, not {array.shape}")
+        raise ValueError(f"{name} must have the shape {shape}, none of them 0, not {array.shape}")
     if array.dtype in (np.bool_, np.uint8):
         return np.ascontiguousarray(array).view(np.uint8)
     return np.ascontiguousarray(array != 0).view(np.uint8)

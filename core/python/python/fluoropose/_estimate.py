@@ -93,9 +93,18 @@ def estimate(
     if mask is not None:
         if click is not None:
             raise ValueError("click is for a frame without a mask")
-        masks = _checks.masks(mask, 2, "mask")[None]
+        _checks.instance(camera, Camera, "camera")
+        pixels = _checks.masks(mask, 2, "mask")
+        camera.check(pixels.shape[1], pixels.shape[0], "mask")
+        if method == "image" and frame is None:
+            raise ValueError("frame must be given for the method image")
+        of_its_size = [("frame", None if frame is None else _checks.frame(frame, "frame"))]
+        of_its_size += [("unknown", None if unknown is None else _checks.masks(unknown, 2, "unknown"))]
+        for name, other in of_its_size:
+            if other is not None and other.shape != pixels.shape:
+                raise ValueError(f"{name} must have the shape of the mask, {pixels.shape}, not {other.shape}")
         return estimate_all(
-            masks,
+            pixels[None],
             model,
             camera,
             frames=None if frame is None else [frame],
