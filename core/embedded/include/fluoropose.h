@@ -25,8 +25,8 @@ typedef int32_t fluoropose_status;
 #define FLUOROPOSE_CAMERA 4     /* the numbers are those of no camera */
 #define FLUOROPOSE_OUTLINE 5    /* the points are no outline: too few, outside the frame, crossing */
 #define FLUOROPOSE_ROWS 6       /* rows do not rise, reach beyond the frame, or have more runs than there is room for */
-#define FLUOROPOSE_SILHOUETTE 7 /* the silhouette is empty, or larger than there is room for */
-#define FLUOROPOSE_NO_POSE 8    /* no pose explains the silhouette, or the outline is longer than there is room for */
+#define FLUOROPOSE_SILHOUETTE 7 /* the silhouette is empty, or there is too little room: the sentence says of what */
+#define FLUOROPOSE_NO_POSE 8    /* no pose explains the silhouette */
 #define FLUOROPOSE_ORDER 9      /* a call came before the one that it goes on from, or there is no such candidate */
 #define FLUOROPOSE_MORE 10      /* slices are left: call fluoropose_go_on again */
 

@@ -62,6 +62,16 @@ pub enum Failure {
     /// The silhouette is empty, or larger than there is memory for.
     #[error(transparent)]
     Silhouette(#[from] MaskError),
+    /// The silhouette, or an outline that is compared with it, is larger than the session's room.
+    #[error("{needed} {what} are needed; the session has room for {given}")]
+    Room {
+        /// What, in the plural, as `fluoropose_room` counts it.
+        what: &'static str,
+        /// How many this frame takes.
+        needed: usize,
+        /// How many there is room for.
+        given: usize,
+    },
     /// No pose explains it.
     #[error(transparent)]
     Find(#[from] FindError),
@@ -81,7 +91,7 @@ impl Failure {
             Self::Camera(_) => Status::Camera,
             Self::Outline(_) => Status::Outline,
             Self::Rows(_) => Status::Rows,
-            Self::Silhouette(_) => Status::Silhouette,
+            Self::Silhouette(_) | Self::Room { .. } => Status::Silhouette,
             Self::Find(_) => Status::NoPose,
             Self::Order => Status::Order,
         }

@@ -4,13 +4,13 @@ use core::task::Poll;
 
 use fluoropose::film::LineMemory;
 use fluoropose::finder::choice::ChoiceContext;
-use fluoropose::finder::{Decision, FrameSearch, Wanted};
+use fluoropose::finder::{Decision, FindError, FrameSearch, Wanted};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::{MaskError, Word};
 use fluoropose::image::runs::{PixelRun, RunBuilder};
 use fluoropose::implant::{ArenaNeeds, ImplantFile};
 use fluoropose::locate::partial::PartialMemory;
-use fluoropose::refine::BorderPixel;
+use fluoropose::refine::{BorderPixel, RefineError};
 use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
 use fluoropose::{
@@ -26,6 +26,7 @@ use crate::layouts::{CandidateNumbers, FoundNumbers, Room};
 pub struct Session<'m> {
     implant: ImplantFile<'m>,
     camera: Camera,
+    room: Room,
     memory: FinderMemory<'m>,
     words: &'m mut [Word],
     runs: RunBuilder<'m>,
@@ -106,6 +107,7 @@ impl<'m> Session<'m> {
             memory: memory.ok_or(Failure::Memory)?,
             implant,
             camera,
+            room: *room,
             seen: Seen::Nothing,
             search: search.ok_or(Failure::Memory)?,
             searches: false,
@@ -141,6 +143,7 @@ impl<'m> Session<'m> {
         let frame = [self.camera.width(), self.camera.height()];
         let outline = Outline::new(points, frame[0], frame[1])?;
         let crop = Crop::around_outline(&outline, Crop::MARGIN, frame)?;
+        fits(&crop, &self.room)?;
         let mask = crop.fill_outline(&outline, self.words)?;
         if mask.area() == 0 {
             return Err(MaskError::Empty.into());
@@ -215,7 +218,8 @@ impl<'m> Session<'m> {
         };
         for _ in 0..slices {
             if let Poll::Ready(done) = self.search.go_on(&wanted, memory, found) {
-                self.decision = done.map(|()| found.decide(&ChoiceContext::default()))?;
+                done.map_err(too_long)?;
+                self.decision = found.decide(&ChoiceContext::default());
                 return Poll::Ready(Ok(()));
             }
         }
@@ -230,6 +234,7 @@ impl<'m> Session<'m> {
             Seen::Rows => {
                 let runs = self.runs.runs();
                 let crop = runs.crop(Crop::MARGIN)?;
+                fits(&crop, &self.room)?;
                 runs.draw(&crop, self.words)?;
                 crop
             }
@@ -260,6 +265,34 @@ impl<'m> Session<'m> {
         self.decision()?;
         let candidate = self.found.candidates.get(number);
         candidate.map(CandidateNumbers::from).ok_or(Failure::Order)
+    }
+}
+
+/// Whether there is room for a silhouette and what is around it: its words might do where it is narrow and high, and others would not.
+fn fits(crop: &Crop, room: &Room) -> Result<(), Failure> {
+    let sides = [
+        ("columns", crop.width(), room.columns as usize),
+        ("rows", crop.height(), room.rows as usize),
+    ];
+    match sides.into_iter().find(|(_, needed, given)| needed > given) {
+        Some((what, needed, given)) => Err(Failure::Room {
+            what,
+            needed,
+            given,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Of the memory that a refinement works in nothing but that of outlines can be too short: the rest follows from columns and rows.
+fn too_long(error: FindError) -> Failure {
+    match error {
+        FindError::Refine(RefineError::Memory(lack)) => Failure::Room {
+            what: "pixels of border",
+            needed: lack.needed,
+            given: lack.given,
+        },
+        other => other.into(),
     }
 }
 

@@ -24,11 +24,20 @@ fn what_there_is_no_room_for_is_refused() {
     // SAFETY: open sessions; rows are as long as is said.
     unsafe {
         assert_eq!(fluoropose_find(small.finder), Status::Silhouette);
+        assert!(
+            small
+                .sentence()
+                .ends_with("are needed; the session has room for 64"),
+            "{}",
+            small.sentence()
+        );
         let short = opened(bytes.bytes(), &Room { border: 50, ..ROOM });
         short.rows(&mask);
-        assert_eq!(fluoropose_find(short.finder), Status::NoPose);
+        assert_eq!(fluoropose_find(short.finder), Status::Silhouette);
         assert!(
-            short.sentence().contains("50 were given"),
+            short
+                .sentence()
+                .ends_with("pixels of border are needed; the session has room for 50"),
             "{}",
             short.sentence()
         );
@@ -47,6 +56,41 @@ fn what_there_is_no_room_for_is_refused() {
             fluoropose_row(few.finder, 600, [1].as_ptr(), 1),
             Status::Order
         );
+    }
+}
+
+/// A silhouette with its margin fits by columns and rows, not by words: 65 to 128 columns take as many.
+#[test]
+fn a_room_is_of_columns_and_rows_and_one_too_few_is_named() {
+    let (own, bytes) = made_femur();
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let (columns, rows) = mask.bounds();
+    let [columns, rows] = [columns, rows].map(|side| side.len() as u32 + 48);
+    let of = |columns, rows| Room {
+        columns,
+        rows,
+        ..ROOM
+    };
+    for (room, lack) in [
+        (of(columns, rows), None),
+        (of(columns - 1, rows), Some(("columns", columns))),
+        (of(2 * columns, rows - 1), Some(("rows", rows))),
+    ] {
+        let c = opened(bytes.bytes(), &room);
+        c.rows(&mask);
+        // SAFETY: an open session.
+        let status = unsafe { fluoropose_find(c.finder) };
+        let Some((what, needed)) = lack else {
+            assert_eq!(status, Status::Ok, "{}", c.sentence());
+            continue;
+        };
+        assert_eq!(status, Status::Silhouette);
+        let sentence = format!(
+            "{needed} {what} are needed; the session has room for {}",
+            needed - 1
+        );
+        assert_eq!(c.sentence(), sentence);
     }
 }
 
@@ -72,9 +116,9 @@ fn with_too_little_room_for_outlines_nothing_is_found_and_the_room_is_named() {
         match found(border) {
             Ok(rotation) => assert_eq!(rotation, plenty, "{border}"),
             Err((status, sentence)) => {
-                assert_eq!(status, Status::NoPose);
+                assert_eq!(status, Status::Silhouette);
                 assert!(
-                    sentence.contains(&format!("{border} were given")),
+                    sentence.ends_with(&format!("room for {border}")),
                     "{sentence}"
                 );
                 refused += 1;

@@ -142,7 +142,12 @@ fn finest_that_fits(order: &Order<'_>, smallest: &Trial) -> Result<Surface> {
         let file = surface.file(&library_of(order, surface, order.libraries()[0])?)?;
         Ok(file.len() <= order.flash)
     };
-    Surface::finest_that_fits(&order.model, may, fits)
+    Surface::finest_that_fits(&order.model, may, fits).with_context(|| {
+        format!(
+            "--flash gives {} bytes; the smallest library takes {}, the model's whole surface {surface_bytes} more",
+            order.flash, smallest.library_bytes
+        )
+    })
 }
 
 /// The smallest of the libraries that fit with which the fewest poses are missed.
