@@ -23,13 +23,21 @@ pub struct ArenaNeeds {
     pub places: usize,
 }
 
+/// What the address of an arena is a multiple of.
+const LARGEST: usize = {
+    let (records, words) = (align_of::<Projected>(), align_of::<Word>());
+    if records > words { records } else { words }
+};
+
 impl ArenaNeeds {
-    /// Bytes of all of it, for outlines of at most `border` pixels.
+    /// Bytes of all of it, for outlines of at most `border` pixels: those of the type that [`crate::finder_arena`] declares.
     #[must_use]
     pub const fn bytes_for(&self, border: usize) -> usize {
         let masks = 2 * size_of::<Word>() * self.canonical + 2 * size_of::<Word>() * self.words;
         let lists = size_of::<u32>() * self.scores + self.bytes + size_of::<u16>() * self.places;
-        masks + lists + size_of::<Projected>() * self.projected + size_of::<BorderPixel>() * border
+        let records = size_of::<Projected>() * self.projected + size_of::<BorderPixel>() * border;
+        let all: usize = masks + lists + records;
+        all.next_multiple_of(LARGEST)
     }
 
     /// Read from the header of an implant file when a program is built, for a part of `columns` x `rows` pixels. Of bytes

@@ -2,7 +2,7 @@
 
 use fluoropose::Camera;
 use fluoropose::camera::CameraError;
-use fluoropose::implant::{Aligned, ImplantFile};
+use fluoropose::implant::{Aligned, ArenaNeeds, ImplantFile};
 
 use crate::failure::Failure;
 
@@ -20,6 +20,10 @@ const ROWS: usize = 288;
 const BORDER: usize = 900;
 
 fluoropose::finder_arena!(pub Arena, &IMPLANT.0, columns: COLUMNS, rows: ROWS, border: BORDER);
+const _: () = assert!(
+    size_of::<Arena>() == ArenaNeeds::of(&IMPLANT.0, COLUMNS, ROWS).bytes_for(BORDER),
+    "what is told of an arena is what it takes"
+);
 
 /// The device's camera: a detector of 512 x 512 pixels of 0.4 mm, 1000 mm from the focus. It sees what the library's camera does, and
 /// knows besides where its detector is, behind which nothing lies.
