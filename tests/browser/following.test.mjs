@@ -82,7 +82,9 @@ if (!IN_FIREFOX) {
     await page.keyboard.press('Shift+G');
     await calls.letGo();
     const said = await panel.waitForWords(page, /^Stopped: \d+ poses? found/);
-    await waitForFollowed(page, Number(/\d+/.exec(said)?.[0]));
+    const count = Number(/\d+/.exec(said)?.[0]);
+    const posed = (/** @type {string[]} */ cells) => cells.filter((cell) => /: (followed|posed|checked)(,|$)/.test(cell)).length;
+    await until(() => panel.cells(page), (cells) => posed(cells) === count, `${count} cells with a pose`);
     assert.equal((await panel.cells(page)).filter((cell) => /so far/.test(cell)).length, 0, 'nothing is left of what was not kept');
   });
 }
@@ -220,6 +222,14 @@ async function checked(page, t) {
   t.diagnostic(`a rival taken: ${panel.differences(taken, before)}`);
   await page.keyboard.press('1');
   await panel.waitForThePose(page, before);
+  // A sheet that is not about the pose takes no verdict of it.
+  await page.keyboard.press('?');
+  const sheet = page.getByRole('dialog');
+  await sheet.waitFor();
+  await page.keyboard.press('y');
+  await sheet.press('Escape');
+  await sheet.waitFor({ state: 'hidden' });
+  assert(!(await panel.cells(page)).some((cell) => /checked/.test(cell)), 'nothing was accepted');
   await page.keyboard.press('y');
   await until(() => panel.cells(page), (cells) => cells.some((cell) => /checked/.test(cell)), 'the pose to be accepted');
   await doubt.waitFor({ state: 'hidden' });

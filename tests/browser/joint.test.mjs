@@ -36,7 +36,7 @@ pageTest('the joint', async (page, t) => {
     const wanted = ['flexion_deg', 'abduction_deg', 'internal_rotation_deg'].map((name) => /** @type {Record<string, number>} */ (truth[0])[name] ?? NaN);
     const isNear = (/** @type {number[]} */ now) => now.length === 3 && now.every((angle, at) => Math.abs(angle - (wanted[at] ?? NaN)) < 0.011);
     await until(read, isNear, `angles of ${wanted}`);
-    const doubt = angles.getByText('Of a doubtful pose.');
+    const doubt = angles.getByText('The pose of the tibia is doubtful.');
     assert.equal(await doubt.count(), 0);
     // A tibia that is moved off its edges, while the femur is on view.
     await page.getByRole('radio', { name: 'Tibia' }).click();
@@ -67,7 +67,7 @@ pageTest('the joint', async (page, t) => {
     await screenshot(page, 'joint');
   });
   await step(page, t, 'asks whether it is the other knee where the femur is made for that', async () => {
-    const asked = page.getByLabel('Joint angles in this frame').getByText('Is it the other knee?');
+    const asked = page.getByLabel('Joint angles in this frame').getByText(/^The femoral component's flange is higher at its left half, /);
     const why = joint(page).getByText(/^The femoral component's flange is higher at its left half, .* stated as right: /);
     assert.equal(await asked.count(), 0);
     await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('right');

@@ -1,7 +1,7 @@
 //! The joint's numbers, frame by frame, for curves and tables.
 
 use fluoropose::joint::flange::OtherSide;
-use fluoropose::joint::impossible::impossible;
+use fluoropose::joint::impossible::{impossible, origins_apart};
 use fluoropose::joint::kinematics::{Side, joint_axes};
 use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::relative::{Placed, Relative};
@@ -167,6 +167,12 @@ impl KneeJoint {
         let numbers = frame.first_chunk::<NUMBERS>()?;
         impossible(numbers).map(|wrong| wrong.to_string())
     }
+
+    /// The largest of a frame's translations, mm, where it is no knee's because the origin of a model's file lies far off its component.
+    #[wasm_bindgen(js_name = originsApart)]
+    pub fn origins_apart(&self, frame: &[f64]) -> Option<f64> {
+        origins_apart(frame.first_chunk::<NUMBERS>()?)
+    }
 }
 
 impl KneeJoint {
@@ -323,6 +329,11 @@ mod tests {
         let mut frame = frame();
         let here = joint.numbers(&frame).ok().unwrap();
         assert_eq!(joint.impossible(&here), None);
+        assert_eq!(joint.origins_apart(&here), None);
+        frame[2] += 400.0;
+        let far = joint.numbers(&frame).ok().unwrap();
+        assert!(joint.origins_apart(&far).is_some_and(|mm| mm.abs() > 200.0));
+        frame[2] -= 400.0;
         frame[5] = 160.0;
         let there = joint.numbers(&frame).ok().unwrap();
         let told = joint.impossible(&there).unwrap();

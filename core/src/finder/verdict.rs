@@ -176,12 +176,13 @@ impl fmt::Display for Doubt {
                     Decimal::brief(MET_WITHIN_PX)
                 )
             }
-            Self::Apart { px, limit_px } => write!(
-                f,
-                "the outlines lie {} px apart, those of a good fit at most {} px: trace again, or is it another size or implant?",
-                Decimal::new(px, 1),
-                Decimal::new(limit_px, 1)
-            ),
+            Self::Apart { px, limit_px } => {
+                let [px, limit_px] = Decimal::told_apart(px, limit_px, 1);
+                write!(
+                    f,
+                    "the outlines lie {px} px apart, those of a good fit at most {limit_px} px: trace again, or is it another size or implant?"
+                )
+            }
             Self::Behind { mm } => write!(
                 f,
                 "it would lie {} mm behind the detector: is the calibration of frames of another size, or the model in another unit?",
@@ -202,12 +203,13 @@ impl fmt::Display for Doubt {
                 write!(f, "only {percent} % of the model's outline is known")
             }
             Self::Undetermined => f.write_str("the outline does not determine the pose"),
-            Self::Unusual { px, limit_px } => write!(
-                f,
-                "{} px remain, on this film at most {} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?",
-                Decimal::new(px, 2),
-                Decimal::new(limit_px, 2)
-            ),
+            Self::Unusual { px, limit_px } => {
+                let [px, limit_px] = Decimal::told_apart(px, limit_px, 2);
+                write!(
+                    f,
+                    "{px} px remain, on this film at most {limit_px} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
+                )
+            }
             Self::Open { turn_deg, other_px } => {
                 // What is written as 1.
                 let is_one = turn_deg > 0.5 && turn_deg < 1.5;

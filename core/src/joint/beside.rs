@@ -20,6 +20,8 @@ const CONDYLE_OF_WIDTH: f64 = 1.0 / 3.0;
 
 /// A tray's width, in what a knee allows of both that are equally wide: a half less a third is a sixth.
 const WHOLE_TRAY: f64 = 6.0;
+/// Flipping is what the fit asks for where so many times as much remains without.
+const CLEARLY: f64 = 1.1;
 
 /// How far the middles of both components of a knee lie beside each other. Whose side of the body it is does not matter, nor which end of
 /// an axis is which.
@@ -216,7 +218,7 @@ impl fmt::Display for Beside {
             } else {
                 ""
             };
-            let (mm, most_mm) = (Decimal::new(mm, 0), Decimal::new(most_mm, 0));
+            let [mm, most_mm] = Decimal::told_apart(mm, most_mm, 0);
             write!(
                 f,
                 "the tray would lie {mm} mm beside the femoral component{over}, where a knee allows {most_mm} mm: "
@@ -229,12 +231,19 @@ impl fmt::Display for Beside {
                 "that is farther than the tray is wide, which no mirrored picture does: is a model in another unit, or are poses or models those of the other component?",
             );
         }
-        f.write_str(match (of_film, flipped) {
+        let tells = flipped.filter(|flipped| flipped.times >= CLEARLY);
+        f.write_str(match (of_film, tells) {
             (true, Some(_)) => "are the pictures mirrored, or the models those of the other side of the body?",
             (true, None) => "are the pictures mirrored, the models those of the other side of the body, or the poses of one component wrong throughout?",
             (false, _) => "is the picture mirrored, is a model that of the other side of the body, or is one of the poses wrong?",
         })?;
         match flipped {
+            // That both lie beside each other then is no reason to flip pictures whose poses may be wrong.
+            Some(Flipped { mm, .. }) if tells.is_none() => write!(
+                f,
+                " Flipped left to right both fit about as well and lie {} mm beside each other. Where the pictures are mirrored, flip them and the masks, or take the models of the other side; where they are not, look at the poses",
+                Decimal::new(mm, 0)
+            ),
             Some(Flipped { mm, times }) => write!(
                 f,
                 " Flipped left to right both fit ({} times as much remains without) and lie {} mm beside each other: flip pictures and masks, or take the models of the other side",

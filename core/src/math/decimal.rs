@@ -29,6 +29,17 @@ impl Decimal {
         }
     }
 
+    /// A number and the limit that it passes, with `digits` behind the point, and more, three at most, where they would be written alike.
+    #[must_use]
+    pub fn told_apart(value: f64, limit: f64, digits: u32) -> [Self; 2] {
+        let differ = |digits: &u32| {
+            let unit = f64::from(10u32.pow(*digits));
+            round(value * unit) != round(limit * unit)
+        };
+        let digits = (digits..3).find(differ).unwrap_or(digits.max(3));
+        [value, limit].map(|value| Self::new(value, digits))
+    }
+
     /// With as many digits as it has, of six.
     #[must_use]
     pub fn brief(value: f64) -> Self {
@@ -91,6 +102,24 @@ mod tests {
             let wanted = format!("{value:.*}", digits as usize);
             prop_assert_eq!(Decimal::new(value, digits).to_string(), wanted);
             prop_assert_eq!(Decimal::brief(value).to_string(), value.to_string());
+        }
+    }
+
+    #[test]
+    fn a_number_is_never_written_as_the_limit_that_it_passes() {
+        for (value, limit, digits, wanted) in [
+            (28.4, 15.0, 0, ["28", "15"]),
+            (28.4, 15.0, 1, ["28.4", "15.0"]),
+            (15.3, 15.0, 0, ["15.3", "15.0"]),
+            (15.04, 15.0, 1, ["15.04", "15.00"]),
+            (15.6, 15.0, 0, ["16", "15"]),
+            (15.0, 15.0, 2, ["15.000", "15.000"]),
+            (15.000_000_1, 15.0, 0, ["15.000", "15.000"]),
+        ] {
+            assert_eq!(
+                Decimal::told_apart(value, limit, digits).map(|one| one.to_string()),
+                wanted
+            );
         }
     }
 

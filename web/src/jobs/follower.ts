@@ -106,8 +106,8 @@ export class Follower {
     const found = await asJob(store, job, (report) => this.#all(parts, before, report, abort.signal));
     store.amend((doc) => withoutSoFar(doc, [...before.values()]));
     if (found.length > 0) store.perform(takeFollowed(found));
-    const posed = found.filter(({ pose }) => pose).length;
-    const done = texts.follow.done(posed, found.some(isDoubtful), found.length - posed, abort.signal.aborted);
+    const lacking = found.filter(({ pose }) => !pose).length;
+    const done = texts.follow.done(posesOf(store.doc, parts), found.some(isDoubtful), lacking, abort.signal.aborted);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 
@@ -194,6 +194,12 @@ export class Follower {
 
 function framesOf(parts: readonly Part[]): number {
   return parts.reduce((sum, { span }) => sum + span.free + span.given.length, 0);
+}
+
+/** How many poses there are of what was followed, those that it was followed from among them. */
+function posesOf(doc: Doc, parts: readonly Part[]): number {
+  const posed = parts.flatMap(({ component }) => doc.frames.filter(({ id }) => chosenCandidate(cellOf(doc, id, component))));
+  return posed.length;
 }
 
 function isDoubtful({ pose, doubtful, led }: Followed): boolean {

@@ -13,6 +13,7 @@ const AT_ONCE = 32;
 interface Known extends Pick<JointFrame, 'femur' | 'tibia'> {
   readonly row: Float64Array;
   readonly impossible: string | null;
+  readonly originsApart: number | null;
 }
 
 /** Works out the numbers of the joint while somebody looks at them: of each frame once, and again when a pose of it changes. */
@@ -46,12 +47,14 @@ export class JointReader {
     if (this.#shown?.asked !== asked || this.#shown.known !== this.#version) {
       const of = new Map<string, Float64Array>();
       const impossible = new Map<string, string>();
+      let originsApart: number | null = null;
       for (const { id } of asked.frames) {
         const known = this.#known.get(id);
         if (known) of.set(id, known.row);
         if (known?.impossible) impossible.set(id, known.impossible);
+        else originsApart ??= known?.originsApart ?? null;
       }
-      const numbers = { ...this.#open.facts, of, impossible, waiting: this.#missing(asked).length };
+      const numbers = { ...this.#open.facts, of, impossible, originsApart, waiting: this.#missing(asked).length };
       this.#shown = { asked, known: this.#version, numbers };
     }
     return this.#shown.numbers;
@@ -138,10 +141,11 @@ export class JointReader {
     if (this.#key !== key) this.#known.clear();
     this.#key = key;
     const uncertain = ({ pose, deviations }: Candidate) => ({ pose, deviations });
-    const { numbers, impossible } = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })), { lane: 'film' });
+    const { numbers, impossible, originsApart } = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })), { lane: 'film' });
     const width = numbers.length / frames.length;
     frames.forEach(({ id, femur, tibia }, at) => {
-      this.#known.set(id, { femur, tibia, row: numbers.subarray(at * width, (at + 1) * width), impossible: impossible[at] ?? null });
+      const row = numbers.subarray(at * width, (at + 1) * width);
+      this.#known.set(id, { femur, tibia, row, impossible: impossible[at] ?? null, originsApart: originsApart[at] ?? null });
     });
   }
 

@@ -1,6 +1,6 @@
 import { useApp } from '../commands/app';
 import { currentFrame, type State } from '../document/store';
-import { jointAskedIn, trustOf } from '../results/motion';
+import { doubtfulIn, jointAskedIn } from '../results/motion';
 import { asSentence } from '../texts/sentences';
 import { formatNumber, plusMinus } from '../texts/numbers';
 import { texts } from '../texts/texts';
@@ -16,7 +16,7 @@ export function JointHere({ state }: { state: State }) {
   const impossible = joint.impossibleIn(frame.id);
   const otherSide = joint.otherSideIn(frame.id);
   const words = texts.panel.joint;
-  const { doubtful } = trustOf(state.history.present, frame.id);
+  const doubtful = doubtfulIn(state.history.present, frame.id).map((component) => texts.component[component]);
   return (
     <div class="joint-angles" role="group" aria-label={words.region}>
       <dl>
@@ -28,16 +28,8 @@ export function JointHere({ state }: { state: State }) {
         ))}
       </dl>
       {impossible !== null && <p class="card-note">{asSentence(impossible)}</p>}
-      {doubtful && (
-        <p class="card-note" title={words.doubtTitle}>
-          {words.doubt}
-        </p>
-      )}
-      {otherSide !== null && (
-        <p class="card-note" title={asSentence(otherSide)}>
-          {words.otherSide}
-        </p>
-      )}
+      {doubtful.length > 0 && <p class="card-note">{words.doubt(doubtful)}</p>}
+      {otherSide !== null && <p class="card-note">{asSentence(otherSide)}</p>}
     </div>
   );
 }

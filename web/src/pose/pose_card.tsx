@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { referencePose } from '../document/reference';
-import { isAccepted, markOf, NO_MARK } from '../document/marks';
+import { checkState, isAccepted, markOf, NO_MARK } from '../document/marks';
 import { currentPlace, currentRefusal } from '../document/store';
 import { cellOf, chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber, NARROW } from '../texts/numbers';
@@ -28,14 +28,12 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
   const { pose = null, deviations = null } = chosenCandidate(cell) ?? {};
   const { poser } = useApp();
   const findings = poser.findings(cell.outline);
-  const source = outdated
-    ? texts.panel.pose.outdated(needs(cell, missing))
-    : sourceOf(cell, findings);
   const { store } = useApp().services;
-  const adjusting = store.ui.tool === 'pose';
   const place = currentPlace(store.state);
-  const refusal = currentRefusal(store.state);
   const mark = place ? markOf(store.doc, place) : NO_MARK;
+  const source = outdated ? texts.panel.pose.outdated(needs(cell, missing)) : sourceOf(cell, findings, checkState(cell, mark) === 'yes');
+  const adjusting = store.ui.tool === 'pose';
+  const refusal = currentRefusal(store.state);
   const reference = store.ui.seeing.comparing ? referencePose(store.doc, place) : null;
   return (
     <section class="card pose" aria-label={texts.panel.pose.region}>
@@ -147,10 +145,10 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
 }
 
 /** Where the pose that is shown comes from. */
-function sourceOf(cell: Cell, findings: Findings | null): string {
+function sourceOf(cell: Cell, findings: Findings | null, isChecked: boolean): string {
   if (cell.result?.kind !== 'posed') return '';
   if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
-  if (cell.result.from === 'film') return texts.follow.source;
+  if (cell.result.from === 'film') return isChecked ? texts.follow.sourceKept : texts.follow.source;
   if (cell.result.from === 'hand') return [cell.result.reason, texts.hand.source].filter((part) => part !== null).join(' ');
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
   const words = texts.panel.pose;

@@ -16,11 +16,13 @@ export interface JointNumbers {
   readonly of: ReadonlyMap<string, Float64Array>;
   /** By the frame's id: why no knee has one of its numbers. */
   readonly impossible: ReadonlyMap<string, string>;
+  /** A translation, mm, of the first frame whose translations are no knee's because the origin of a model's file lies far off its component. */
+  readonly originsApart: number | null;
   /** Frames that are still being worked out. */
   readonly waiting: number;
 }
 
-export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(), impossible: new Map(), waiting: 0 };
+export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(), impossible: new Map(), originsApart: null, waiting: 0 };
 
 /** The core's names of what a curve shows; of two, the medial one comes first. */
 export const CURVES: Readonly<Record<CurveName, { readonly columns: readonly string[]; readonly unit: '°' | 'mm' }>> = {

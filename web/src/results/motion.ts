@@ -1,5 +1,6 @@
 import { isAssumed, knownAxes } from '../document/axes';
 import { indexOfFrame } from '../document/frame_index';
+import type { Place } from '../document/command';
 import { checkState, markOf, NO_MARK } from '../document/marks';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
 import type { Directions } from '../geometry/axes';
@@ -109,11 +110,23 @@ export function jointTrusts(doc: Doc): readonly JointTrust[] {
 
 /** Of one frame, by its id. */
 export function trustOf(doc: Doc, frameId: string): JointTrust {
-  const cells = COMPONENT_NAMES.map((component) => ({ cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
-  const checks = cells.map(({ cell, mark }) => ({ isDoubtful: doubtOf(cell) !== null, isChecked: checkState(cell, mark) === 'yes' }));
+  const checks = COMPONENT_NAMES.map((component) => checkOf(doc, { frameId, component }));
   const doubtful = checks.some(({ isDoubtful, isChecked }) => isDoubtful && !isChecked);
   const isAccepted = !doubtful && checks.some(({ isDoubtful }) => isDoubtful);
   return { doubtful, checked: isAccepted || checks.every(({ isChecked }) => isChecked) };
+}
+
+/** Whose poses are doubtful in a frame, and nobody has accepted. */
+export function doubtfulIn(doc: Doc, frameId: string): readonly ComponentName[] {
+  return COMPONENT_NAMES.filter((component) => {
+    const { isDoubtful, isChecked } = checkOf(doc, { frameId, component });
+    return isDoubtful && !isChecked;
+  });
+}
+
+function checkOf(doc: Doc, place: Place): { readonly isDoubtful: boolean; readonly isChecked: boolean } {
+  const cell = cellOf(doc, place.frameId, place.component);
+  return { isDoubtful: doubtOf(cell) !== null, isChecked: checkState(cell, markOf(doc, place)) === 'yes' };
 }
 
 /** Why a pose is doubtful, a sentence without its full stop; null where it is not. */

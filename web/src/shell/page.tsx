@@ -1,5 +1,5 @@
 import { useEffect } from 'preact/hooks';
-import { actionFor, type KeyInput } from '../commands/bindings';
+import { type Action, actionFor, type KeyInput } from '../commands/bindings';
 import { runCheckKey } from '../commands/check_keys';
 import { texts } from '../texts/texts';
 import { useApp, useAppState } from '../commands/app';
@@ -79,12 +79,13 @@ function useKeys(): void {
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
-      if (!typing(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
+      if (!typing(target) && !inSheet(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
       if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
       const action = meant({ key, ctrl: ctrlKey || metaKey, shift, alt });
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
+      if (inSheet(target) && isVerdict(action)) return false;
       // Enter belongs to the control that has the focus.
       if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
@@ -113,6 +114,17 @@ function hasArrows(target: EventTarget | null): boolean {
 function typing(target: EventTarget | null): boolean {
   if (target instanceof HTMLInputElement) return target.type !== 'range' && target.type !== 'checkbox';
   return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+}
+
+/** In a sheet that is not about the cell on view; the list of what there is to do is. */
+function inSheet(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.closest('.sheet:not(.work-sheet)') !== null;
+}
+
+/** What a person says of the cell, or takes from it: nobody means it who looks at something else. */
+function isVerdict(action: Action): boolean {
+  if (action.name === 'work') return ['toggle-checked', 'toggle-flagged', 'start-anew'].includes(action.command);
+  return ['delete-point', 'delete-outline', 'other-candidate'].includes(action.name);
 }
 
 function onControl(target: EventTarget | null): boolean {

@@ -45,7 +45,7 @@ function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion |
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
-  if (isInCheck(state)) return { text: result?.kind === 'failed' ? texts.check.lackingHint : texts.check.hint, kind: 'hint' };
+  if (isInCheck(state)) return { text: result?.kind === 'failed' ? texts.check.lackingHint : texts.check.hint(Math.min(result?.candidates.length ?? 0, 3)), kind: 'hint' };
   if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
   // The card on the film may ask for the other one.
   const guide = guideOf(state);

@@ -1,6 +1,8 @@
 /** What the keys do while doubtful poses are gone through, and the line below then: with the first load. */
 export const checkKeys = {
-  hint: 'Y accepts it, 1 to 3 take one of its poses, E edits, N leaves it for later; Space held shows the frame alone.',
+  /** With so many poses to choose from. */
+  hint: (poses: number) =>
+    `Y accepts it, ${poses > 1 ? `1 ${poses > 2 ? 'to' : 'and'} ${poses} take one of its poses, ` : ''}E edits, N leaves it for later; Space held shows the frame alone.`,
   lackingHint: 'Y says that it is not there; a click (O) finds it, E places it by hand, N leaves it for later.',
   keys: {
     take: 'While a doubtful pose is on view: take the first, second or third of its rivals',

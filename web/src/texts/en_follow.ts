@@ -15,6 +15,7 @@ export const follow = {
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
   unit: 'frames',
+  sourceKept: 'Followed through the film, and kept: it was checked.',
   source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
   soFar: 'the film has not been judged as a whole yet: it is being followed, or that was broken off, and Follow goes on',
   unjudged: (component: string, frames: number) =>

@@ -83,9 +83,8 @@ export const panel = {
   joint: {
     region: 'Joint angles in this frame',
     angles: { flexion: 'Flexion', abduction: 'Abduction', internal_rotation: 'Internal' },
-    doubt: 'Of a doubtful pose.',
-    doubtTitle: 'The pose of the femur or of the tibia is doubtful in this frame',
-    otherSide: 'Is it the other knee?',
+    /** Of the components whose poses are: one, or both. */
+    doubt: (components: readonly string[]) => (components.length === 1 ? `The pose of the ${components[0]} is doubtful.` : 'Both poses are doubtful.'),
   },
 
   unmatched: {

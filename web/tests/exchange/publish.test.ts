@@ -30,7 +30,7 @@ function set(store: Store, frame: number, component: ComponentName, result: Resu
 }
 
 function numbers(frames: number): JointNumbers {
-  return { columns: ['flexion_deg'], hasPlate: false, plate: new Float64Array(), otherSide: null, impossible: new Map(), of: new Map(Array.from({ length: frames }, (_, k) => [`f${k}`, Float64Array.of(k)])), waiting: 0 };
+  return { columns: ['flexion_deg'], hasPlate: false, plate: new Float64Array(), otherSide: null, impossible: new Map(), originsApart: null, of: new Map(Array.from({ length: frames }, (_, k) => [`f${k}`, Float64Array.of(k)])), waiting: 0 };
 }
 
 describe('what is published', () => {

@@ -127,7 +127,7 @@ describe('following', () => {
     store.perform(setPoseByHand(place(1), poseOf(0)));
     await follower.follow();
     expect(xs()).toEqual([10, 0, 12, 13, 14, null]);
-    expect(store.ui.notice?.text).toBe('4 poses found, some doubtful: N goes from one to the next. 1 cell is without one (\u2715): a click there, or an outline, helps.');
+    expect(store.ui.notice?.text).toBe('5 poses found, some doubtful: N goes from one to the next. 1 cell is without one (\u2715): a click there, or an outline, helps.');
     expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' }, doubt: 2, candidates: [{ pose: poseOf(14) }, { pose: poseOf(-4), residual: 0.3 }] });
     expect(cellOf(store.doc, 'f5', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'As untrackable says.' });
     store.undo();
@@ -382,7 +382,7 @@ describe('following', () => {
       return true;
     });
     await follower.follow();
-    expect(store.ui.notice?.text).toMatch(/^Stopped: 5 poses found/);
+    expect(store.ui.notice?.text).toMatch(/^Stopped: 6 poses found/);
     expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
     expect(spanToFollow(store.doc, 'femur')).toMatchObject({ first: 0, last: 5, free: 5 });
     femur.stopAt(-1, () => undefined);
@@ -409,7 +409,7 @@ describe('following', () => {
     femur.stopAt(3, () => void follower.follow());
     await follower.follow();
     expect(store.ui.following).toBe(false);
-    expect(store.ui.notice?.text).toBe('Stopped: 3 poses found.');
+    expect(store.ui.notice?.text).toBe('Stopped: 4 poses found.');
     expect(xs()).toEqual([0, 11, 12, 13, null, null]);
     expect(cellOf(store.doc, 'f5', 'femur').result).toBeNull();
   });

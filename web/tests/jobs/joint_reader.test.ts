@@ -21,7 +21,7 @@ function bench(troubles: Error[] = []) {
     if (trouble) throw trouble;
     if ('side' in input) return { columns: ['x'], hasPlate: false, plate: new Float64Array(), otherSide: null };
     const frames = input as readonly { femur: Uncertain }[];
-    return { numbers: Float64Array.from(frames, ({ femur }) => femur.pose.x), impossible: frames.map(({ femur }) => (femur.pose.x === 7 ? 'no knee does it' : null)) };
+    return { numbers: Float64Array.from(frames, ({ femur }) => femur.pose.x), impossible: frames.map(({ femur }) => (femur.pose.x === 7 ? 'no knee does it' : null)), originsApart: frames.map(({ femur }) => (femur.pose.x >= 6 ? 100 + femur.pose.x : null)) };
   };
   const reader = new JointReader({ store, studio: { meshOf: () => null } } as unknown as ConstructorParameters<typeof JointReader>[0], { call } as unknown as ConstructorParameters<typeof JointReader>[1]);
   store.perform(addFrames(Array.from({ length: FRAMES }, (_, k) => ({ id: `f${k}`, name: `f${k}`, source: 's', indexInSource: k, width: 8, height: 8 }))));
@@ -45,6 +45,8 @@ describe('the reader of the joint', () => {
     expect(asked()).toEqual([32, 8]);
     expect(reader.numbers.of.get('f35')?.[0]).toBe(35);
     expect([...reader.numbers.impossible]).toEqual([['f7', 'no knee does it']]);
+    // Of frames that a knee may have alone.
+    expect(reader.numbers.originsApart).toBe(106);
     expect(reader.numbers).toBe(reader.numbers);
   });
 

@@ -34,7 +34,7 @@ const row = (...numbers: number[]) => Float64Array.from(numbers);
 function numbers(): JointNumbers {
   const flexions = [0, 20, 40, NaN, 30, 10];
   const rows = flexions.flatMap((flexion, k): [string, Float64Array][] => (Number.isNaN(flexion) ? [] : [[`f${k}`, row(flexion, -k, 0.1, k === 1 ? NaN : 2)]]));
-  return { columns: COLUMNS, hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(rows), impossible: new Map(), waiting: 0 };
+  return { columns: COLUMNS, hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(rows), impossible: new Map(), originsApart: null, waiting: 0 };
 }
 
 describe('curves of a joint', () => {

@@ -8,7 +8,7 @@ const COLUMNS = ['medial_ap_mm', 'lateral_ap_mm', 'medial_across_mm', 'lateral_a
 
 function numbers(rows: readonly (readonly number[])[]): JointNumbers {
   const of = new Map(rows.map((row, k) => [`f${k}`, Float64Array.from(row)]));
-  return { columns: COLUMNS, hasPlate: true, plate: Float64Array.of(25, 0, 0, 38, NaN, NaN, -25, 0, 0, -38), otherSide: null, of, impossible: new Map([['f2', 'no knee']]), waiting: 0 };
+  return { columns: COLUMNS, hasPlate: true, plate: Float64Array.of(25, 0, 0, 38, NaN, NaN, -25, 0, 0, -38), otherSide: null, of, impossible: new Map([['f2', 'no knee']]), originsApart: null, waiting: 0 };
 }
 
 function film(side: 'left' | 'right'): Store {

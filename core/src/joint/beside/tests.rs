@@ -175,6 +175,18 @@ fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
         words.contains("both fit (1.8 times as much remains without) and lie 1 mm"),
         "{words}"
     );
+    // Where they fit alike either way the poses may be what is wrong.
+    beside.flipped = Some(Flipped {
+        mm: 1.2,
+        times: 1.04,
+    });
+    let words = format!("{beside}");
+    assert!(
+        words.contains("poses of one component wrong")
+            && words.contains("fit about as well and lie 1 mm")
+            && words.ends_with("where they are not, look at the poses"),
+        "{words}"
+    );
     beside.of_film = false;
     assert!(format!("{beside}").contains("is one of the poses wrong?"));
     // The fit alone tells it.

@@ -8,6 +8,7 @@ import { inRuns } from '../../results/joint_faults';
 import { jointTrusts, motionNeeds } from '../../results/motion';
 import { CONVENTIONS, DOCK, OVERS } from '../../terms/joint';
 import { later } from '../../texts/later';
+import { formatNumber } from '../../texts/numbers';
 import { asSentence } from '../../texts/sentences';
 import { CurvePanel } from './curve_panel';
 import { DockSize } from './dock_size';
@@ -102,16 +103,17 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
 function Wrong({ numbers, doc, kneeDoubt }: { numbers: JointNumbers; doc: Doc; kneeDoubt: string | null }) {
   const words = later.curves;
   const told = useMemo(() => impossibilitiesOf(doc, numbers), [doc.frames, numbers]);
-  const { of, impossible, otherSide, waiting } = numbers;
+  const { of, impossible, originsApart, otherSide, waiting } = numbers;
   const none = useMemo(() => {
     const trusts = jointTrusts(doc);
     return of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
   }, [doc, numbers]);
-  if (told.length === 0 && !none && kneeDoubt === null && otherSide === null) return null;
+  if (told.length === 0 && !none && kneeDoubt === null && otherSide === null && originsApart === null) return null;
   return (
     <div class="joint-wrong" role="status">
       {kneeDoubt !== null && <p>{asSentence(kneeDoubt)}</p>}
       {otherSide !== null && <p>{asSentence(otherSide)}</p>}
+      {originsApart !== null && <p>{words.originsApart(formatNumber(originsApart, 0))}</p>}
       {none && <p>{words.allDoubtful(of.size)}</p>}
       {told.map(({ why, frames }) => (
         <p key={why}>{words.impossible(inRuns(frames), frames.length, why)}</p>

@@ -36,7 +36,8 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       const asked = frames.flatMap(({ femur, tibia }) => [...uncertain(femur), ...uncertain(tibia)]);
       const numbers = joint.numbers(Float64Array.from(asked)) as Float64Array<ArrayBuffer>;
       const width = numbers.length / Math.max(1, frames.length);
-      return { numbers, impossible: frames.map((_, at) => joint.impossible(numbers.subarray(at * width, (at + 1) * width)) ?? null) };
+      const rows = frames.map((_, at) => numbers.subarray(at * width, (at + 1) * width));
+      return { numbers, impossible: rows.map((row) => joint.impossible(row) ?? null), originsApart: rows.map((row) => joint.originsApart(row) ?? null) };
     },
     lyingBeside: async (film) => {
       await ready;

@@ -66,6 +66,8 @@ export interface JointOfFrames {
   readonly numbers: Float64Array<ArrayBuffer>;
   /** Why no knee has one of a frame's numbers, without its full stop; null where it can have them. */
   readonly impossible: readonly (string | null)[];
+  /** The largest of a frame's translations, mm, where it is no knee's because a model's origin lies far off the component; null else. */
+  readonly originsApart: readonly (number | null)[];
 }
 
 /** A pose, and one standard deviation of its depth, mm; null where that is not known. */
