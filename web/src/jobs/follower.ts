@@ -5,7 +5,7 @@ import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/
 import { spanToFollow } from '../results/spans';
 import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { FollowProtocol } from '../workers/protocol/follow';
@@ -98,7 +98,7 @@ export class Follower {
   async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
     const { store } = this.#services;
     const parts = this.#parts(store.doc);
-    const notFound = missing.map((component) => texts.follow.notFound(texts.component[component]));
+    const notFound = missing.map((component) => this.#whyMissing(component));
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
     const before: Before = new Map();
@@ -116,8 +116,15 @@ export class Follower {
     const { store } = this.#services;
     const frame = currentFrame(store.state);
     for (const component of frame ? missing : []) {
-      store.sayAt({ frameId: frame!.id, component }, 'error', texts.follow.notFound(texts.component[component]));
+      store.sayAt({ frameId: frame!.id, component }, 'error', this.#whyMissing(component));
     }
+  }
+
+  /** Without a library, as where the calibration is that of other frames, no frame was searched. */
+  #whyMissing(component: ComponentName): string {
+    const library = this.#services.store.ui.libraries[component];
+    if (library.state === 'stopped') return texts.said.library.failed(titleOf(component), library.reason);
+    return texts.follow.notFound(texts.component[component]);
   }
 
   /** Why the film cannot be followed; null where it can. */

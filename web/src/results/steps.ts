@@ -112,6 +112,8 @@ export function guideOf(state: State): Guide | null {
   const { unposed, free } = standingOf(doc);
   const awaited = awaitsClick(state);
   const wanted = awaited.includes(component) ? component : awaited[0];
+  // A click leads to no pose there; why, the card of the pose says.
+  if (wanted && libraries[wanted].state === 'stopped') return null;
   if (wanted) return { ask: 'click', component: wanted, isPreparing: libraries[wanted].state === 'building' };
   return free > 0 && unposed.length === 0 ? { ask: 'follow' } : null;
 }

@@ -20,6 +20,7 @@ export function ExportFaults({ state }: { state: State }) {
   const words = later.exporting.faults;
   return (
     <>
+      {doc.unread.length > 0 && <p class="sheet-text">{texts.said.withoutUnread(doc.unread)}</p>}
       {kind !== 'poses' && joint.numbers.of.size > 0 && <p class="sheet-text">{words.frames(joint.numbers.of.size, doc.frames.length)}</p>}
       {soFar.map((one) => (
         <p class="sheet-text" key={one}>

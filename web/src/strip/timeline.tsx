@@ -39,7 +39,7 @@ export function Timeline({ state }: { state: State }) {
 
 function FrameSlider({ state }: { state: State }) {
   const { actions, services } = useApp();
-  const { frames } = state.history.present;
+  const { frames, unread } = state.history.present;
   const { frameIndex } = state.ui;
   const last = Math.max(0, frames.length - 1);
   const frame = frames[frameIndex];
@@ -57,6 +57,11 @@ function FrameSlider({ state }: { state: State }) {
         <span class="frame-count">
           {frames.length === 0 ? '–' : frameIndex + 1} / {frames.length}
         </span>
+        {unread.length > 0 && (
+          <span class="frame-unread" role="img" aria-label={texts.said.withoutUnread(unread)} title={texts.said.withoutUnread(unread)}>
+            !
+          </span>
+        )}
       </div>
       <input
         type="range"

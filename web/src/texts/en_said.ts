@@ -34,6 +34,9 @@ export const said = {
   asPoses: (name: string, component: string) => `${name} as poses of the ${component}`,
   asPosesWithout: (name: string, component: string, unread: readonly string[]) =>
     `${name} as poses of the ${component} (it has rows for ${few(unread)} too, which could not be read: each row stays with its own frame)`,
+  /** What a film lacks: file names of frames. */
+  withoutUnread: (unread: readonly string[]) =>
+    `${few(unread)} could not be read: frames are counted, and rows written, without ${unread.length === 1 ? 'it' : 'them'}.`,
   otherRows: (rows: number, frames: number, unread: readonly string[]) =>
     `${counted(rows, 'row')} of poses for ${counted(frames, 'frame')}: which belongs to which is not known, and none was taken. ${
       unread.length > 0 ? `${few(unread)} could not be read: open ${unread.length === 1 ? 'it' : 'them'} mended, then the poses. ` : ''

@@ -65,9 +65,11 @@ describe('what is published', () => {
   it('says how poses were found, and which frames were not refined or checked', async () => {
     const store = film(3);
     set(store, 1, 'femur', posed({ from: 'hand', candidates: [bare(POSE)], verdict: null }));
+    store.amend((doc) => ({ ...doc, unread: ['0003.png'] }));
     for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f0', component }));
     const { settings, remarks } = await publishedFilm(store.doc, numbers(3));
     expect(settings).toContainEqual(['poses of the femur', 'refined: 2 of 3; by hand: 1 of 3']);
+    expect(remarks[0]).toBe('Frames that could not be read, and are not counted: 0003.png.');
     expect(remarks).toContain('Frames with a pose that was not refined: 2 (1 of 3).');
     expect(remarks).toContain('Frames that no person has checked: 2\u20133 (2 of 3).');
   });

@@ -79,6 +79,13 @@ describe('following', () => {
     expect(store.ui.following).toBe(false);
   });
 
+  it('says of a component without a library why there is none', async () => {
+    const { store, follower } = bench();
+    store.setLibrary('femur', { state: 'stopped', key: 'k', reason: 'the calibration is for 480 x 393 pixels' });
+    await follower.follow();
+    expect(store.ui.notice).toMatchObject({ kind: 'error', text: 'Femur library: the calibration is for 480 x 393 pixels' });
+  });
+
   it('goes on from where it found a component', async () => {
     const { follower, xs, discoveries } = bench();
     discoveries.femur = 2;
