@@ -33,6 +33,7 @@ impl JointReport {
             plate_outline: Vec::new(),
             frames_per_s: (frames_per_s > 0.0).then_some(frames_per_s),
             cutoff_hz: None,
+            remarks: Vec::new(),
             rows: Vec::new(),
         };
         if let Some(joint) = knee.joint()? {
@@ -44,8 +45,9 @@ impl JointReport {
         let mut facts = Facts::default();
         facts.set_axes("femoral", &knee.femur.anatomical_axes());
         facts.set_axes("tibial", &knee.tibia.anatomical_axes());
-        let other = knee.other_side()?;
-        facts.remarks.extend(other.map(Facts::side_remark));
+        film.remarks
+            .extend(knee.other_side()?.map(Facts::side_remark));
+        facts.remarks.clone_from(&film.remarks);
         Ok(Self { film, facts })
     }
 

@@ -101,6 +101,9 @@ pub struct JointFilm {
     pub frames_per_s: Option<f64>,
     /// Cutoff of the filter, Hz, where one was asked for.
     pub cutoff_hz: Option<f64>,
+    /// What a reader has to know of the knee, sentences: that it may be of the other side, that a shape does not tell its front. They stand
+    /// in the heading of its table.
+    pub remarks: Vec<String>,
     /// Frame by frame.
     pub rows: Vec<JointRow>,
 }

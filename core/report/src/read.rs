@@ -144,7 +144,7 @@ pub fn table(text: &str) -> Result<Table, ReadError> {
     rows(names, numbers, &[','])
 }
 
-/// The film of a joint table: what [`crate::write::table`] wrote of it, without the tray's outline and what errors are shared.
+/// The film of a joint table: what [`crate::write::table`] wrote of it, without the tray's outline, remarks, and what errors are shared.
 ///
 /// # Errors
 /// [`ReadError`] names the line, or says what is missing.
@@ -164,6 +164,7 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
         plate_outline: Vec::new(),
         frames_per_s: None,
         cutoff_hz: None,
+        remarks: Vec::new(),
         rows: Vec::new(),
     };
     let column = |name: &str| table.column(name).ok_or(ReadError::Kind("joint table"));

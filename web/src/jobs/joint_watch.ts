@@ -116,6 +116,7 @@ export class JointWatch {
     const first = told.find((sentence) => sentence !== null) ?? this.#toldBefore();
     this.#finding = first === null ? null : { models: this.#asked.models, sentence: first };
     this.#keepFinding();
+    if (this.#sayInstead(first)) return;
     const { notice } = store.ui;
     // Its numbers change as more is known: it is not said twice in one line.
     const isSaid = this.#said !== null && notice?.text.includes(asSentence(this.#said));
@@ -123,6 +124,19 @@ export class JointWatch {
     else if (isSaid) return;
     this.#said = first;
     this.#say();
+  }
+
+  /** What stands in the line of the poses as they were gives way to what is so of them now, perhaps nothing. */
+  #sayInstead(now: string | null): boolean {
+    const { store } = this.#services;
+    const { notice } = store.ui;
+    const said = this.#said === null ? null : asSentence(this.#said);
+    if (said === null || now === this.#said || !notice?.text.endsWith(said)) return false;
+    const text = [notice.text.slice(0, -said.length).trim(), now === null ? '' : asSentence(now)].filter((part) => part !== '').join(' ');
+    this.#said = now;
+    if (text === '') store.quiet();
+    else store.say(notice.kind, text, undefined, notice.of);
+    return true;
   }
 
   #keepFinding(): void {

@@ -6,6 +6,8 @@ import { impossibilitiesOf } from '../results/joint_curves';
 import { FAULTS, faultsOf, inRuns, toldTogether } from '../results/joint_faults';
 import { type ComponentName, titleOf } from '../terms/component';
 import { later } from '../texts/later';
+import { formatNumber } from '../texts/numbers';
+import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 
 /** What is unrefined, unchecked, doubtful or missing in it, before it is written. */
@@ -33,6 +35,15 @@ export function ExportFaults({ state }: { state: State }) {
             {later.curves.impossible(inRuns(frames), frames.length, why)}
           </p>
         ))}
+      {(kind === 'poses' ? [] : [doc.kneeDoubt?.sentence ?? null, joint.numbers.otherSide]).map(
+        (doubt) =>
+          doubt !== null && (
+            <p class="sheet-text" key={doubt}>
+              {asSentence(doubt)}
+            </p>
+          ),
+      )}
+      {kind !== 'poses' && joint.numbers.originsApart !== null && <p class="sheet-text">{later.curves.originsApart(formatNumber(joint.numbers.originsApart, 0))}</p>}
       {found.length === 0 ? (
         <p class="sheet-text">{words.none}</p>
       ) : (

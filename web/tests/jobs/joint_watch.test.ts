@@ -56,6 +56,7 @@ describe('joint watch', () => {
     put('a', 'tibia', posed(-1001));
     await vi.waitFor(() => expect(word('a', 'femur')).toBe('good'));
     expect(cellOf(store.doc, 'a', 'femur').result).not.toHaveProperty('aside');
+    expect(store.ui.notice).toBeNull();
   });
 
   it('does not leave it said that a pose is good, and says it behind what following a film came to', async () => {
@@ -85,9 +86,10 @@ describe('joint watch', () => {
     expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored?');
     put('a', 'tibia', posed(-1050));
     await vi.waitFor(() => expect(store.doc.kneeDoubt?.sentence).toBe('are the pictures mirrored, by more?'));
-    expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored?');
+    expect(store.ui.notice?.text).toBe('Followed 1 cell. Are the pictures mirrored, by more?');
     put('a', 'tibia', posed(-1001));
     await vi.waitFor(() => expect(store.doc.kneeDoubt).toBeNull());
+    expect(store.ui.notice?.text).toBe('Followed 1 cell.');
   });
 
   it('tells it also of work that came back, and keeps it over a step back', async () => {

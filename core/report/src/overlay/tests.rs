@@ -30,6 +30,7 @@ fn film() -> JointFilm {
         plate_outline: Vec::new(),
         frames_per_s: Some(10.0),
         cutoff_hz: None,
+        remarks: Vec::new(),
         rows: (0..FRAMES).map(row).collect(),
     }
 }

@@ -42,6 +42,22 @@ fn the_table_reads_back_to_the_last_bit() {
 }
 
 #[test]
+fn what_a_reader_has_to_know_of_the_knee_stands_above_its_table() {
+    let mut film = film(0.0);
+    film.remarks = vec!["Side: it is made for a left knee.".to_owned()];
+    let text = write::table(&film);
+    assert!(
+        text.contains("\n# Side: it is made for a left knee.\n"),
+        "{text}"
+    );
+    assert_eq!(
+        read::film(&text).unwrap().rows.len(),
+        film.rows.len(),
+        "the heading is none of its rows"
+    );
+}
+
+#[test]
 fn a_table_reads_back_as_a_film() {
     let film = film(12.0);
     let read = read::film(&write::table(&film)).unwrap();

@@ -49,6 +49,7 @@ fn film(rotation_deg: f64) -> JointFilm {
         plate_outline: vec![[24.0, 37.0], [24.0, -37.0], [-24.0, -37.0], [-24.0, 37.0]],
         frames_per_s: Some(15.0),
         cutoff_hz: None,
+        remarks: Vec::new(),
         rows: (0..30).map(row).collect(),
     }
 }

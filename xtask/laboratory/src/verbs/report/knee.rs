@@ -139,6 +139,7 @@ impl<'s> Knee<'s> {
             plate_outline: outline,
             frames_per_s: filtering.frames_per_s,
             cutoff_hz: filtering.low_pass.map(|low_pass| low_pass.cutoff_hz),
+            remarks: self.remarks.clone(),
             rows,
         })
     }
