@@ -364,7 +364,16 @@ export const FOLLOWED = 'followed from';
 /** On the pose that is chosen; null where none was given: poses of the library, of files, of old sessions. */
 export function verdictOf(result: Result | null): Verdict | null {
   const aside = result?.kind === 'posed' ? result.aside : undefined;
-  return aside === undefined ? verdictAlone(result) : { word: 'doubtful', because: aside };
+  if (aside !== undefined) return { word: 'doubtful', because: aside };
+  const verdict = verdictAlone(result);
+  // That it fits is why there was a choice: which of them is right stays open until a person has accepted it.
+  if (isTaken(result) && result.verdict?.word === 'doubtful' && verdict?.word === 'good') return { word: 'doubtful', because: texts.follow.taken(result.verdict.because) };
+  return verdict;
+}
+
+/** Did a person take another pose than the one that was chosen? */
+export function isTaken(result: Result | null): result is Posed {
+  return result?.kind === 'posed' && result.chosen !== 0;
 }
 
 /** The same without what its joint tells: what is worked out from poses rests on them as they are by themselves. */

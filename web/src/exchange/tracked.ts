@@ -2,7 +2,7 @@ import { strToU8, zipSync } from 'fflate';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
-import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, type Posed, verdictOf } from '../document/types';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, isTaken, type Posed, verdictAlone, verdictOf } from '../document/types';
 import { doubtOf } from '../results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -45,7 +45,7 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   if (result?.kind !== 'posed') return ['no pose', 'none', result?.sentence ?? ''];
   const doubt = doubtOf(cell);
   if (doubt !== null && isChecked) return ['fixed', 'good', texts.follow.accepted(doubt)];
-  if (doubt !== null) return ['doubtful', 'doubtful', doubt];
+  if (doubt !== null) return [isTaken(result) && verdictAlone(result)?.word === 'good' ? 'fixed' : 'doubtful', 'doubtful', doubt];
   const verdict = verdictOf(result);
   // What nobody and nothing has held against the frame is not good yet.
   if (result.chosen === 0 && !verdict && !isChecked) return [isGivenBy(result) ? 'fixed' : 'found', 'none', texts.follow.notJudged];

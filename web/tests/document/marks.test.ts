@@ -115,7 +115,7 @@ describe('progress', () => {
     expect([isAccepted(cell(), markOf(store.doc, place(0))), progress().doubtful]).toEqual([false, true]);
   });
 
-  it('a verdict says what is doubtful; who took another candidate has that one\u2019s', () => {
+  it('a verdict says what is doubtful; that a person took another candidate is no answer until it is checked', () => {
     const store = film(1);
     const doubtful = { word: 'doubtful', because: 'a part is hidden' } as const;
     const good = { misfit: 0.3, verdict: { word: 'good', because: 'it fits' } } as const;
@@ -125,7 +125,7 @@ describe('progress', () => {
     giveResult(store, place(0), { candidates, verdict: doubtful });
     expect(isDoubtful()).toBe(true);
     giveResult(store, place(0), { candidates, verdict: doubtful, chosen: 1 });
-    expect(isDoubtful()).toBe(false);
+    expect(isDoubtful()).toBe(true);
     giveResult(store, place(0), { candidates, decided: false, verdict: good.verdict });
     expect(isDoubtful()).toBe(false);
   });

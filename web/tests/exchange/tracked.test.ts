@@ -81,7 +81,7 @@ describe('poses as the commands take them', () => {
     expect(because({ verdict: { word: 'doubtful', because: 'so' } }, true)).toBe('a person accepted it; it was doubtful: so');
   });
 
-  it('say of a pose that a person took instead of the followed one what that leaves, not what was said of the other', () => {
+  it('say of a pose that a person took instead of the followed one what that leaves, and that the other was doubtful', () => {
     const row = (residual: number | null, from: 'film' | 'outline') => {
       const store = film();
       const verdict = { word: 'doubtful', because: 'jump: it lies off the way' } as const;
@@ -91,8 +91,9 @@ describe('poses as the commands take them', () => {
       store.perform(chooseCandidate(place, 1));
       return statesOf(store.doc).trimEnd().split('\r\n').at(-1)!.split(/,(?! )/).slice(2, 5);
     };
-    expect(row(1.9, 'film')).toEqual(['fixed', 'good', 'a person fixed the pose']);
-    expect(row(null, 'film')).toEqual(['fixed', 'good', 'a person fixed the pose']);
+    const open = ['fixed', 'doubtful', '"it was taken by hand in place of the first, which was doubtful: jump: it lies off the way"'];
+    expect(row(1.9, 'film')).toEqual(open);
+    expect(row(null, 'film')).toEqual(open);
     expect(row(2.6, 'film')).toEqual(['doubtful', 'doubtful', '"a person fixed the pose, and it leaves 2.6 px beside the edges"']);
     expect(row(0.5, 'outline')).toEqual(['fixed', 'good', 'a person fixed the pose']);
   });
