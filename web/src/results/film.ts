@@ -102,6 +102,13 @@ export function isNearUnseen(a: PoseNumbers, b: PoseNumbers): boolean {
   return isWithin(NEAR_UNSEEN, a, b, [0, 0, 0]);
 }
 
+/** Near for a click, which nobody moves by hand: constants of the film that came while it was followed correct it so much at most. */
+const CORRECTED_UNSEEN: Apart = { aside: 3, depth: 10, turn: 0.4 };
+
+export function isCorrectedUnseen(a: PoseNumbers, b: PoseNumbers): boolean {
+  return isWithin(CORRECTED_UNSEEN, a, b, [0, 0, 0]);
+}
+
 /** From poses this near the frame itself leads to the same one: a hand that corrects so much changes nothing that was read from there. */
 const REACH: Apart = { aside: 3, depth: 40, turn: 3 };
 

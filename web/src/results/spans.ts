@@ -5,7 +5,7 @@ import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../do
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
-import { isNearUnseen } from './film';
+import { isCorrectedUnseen, isNearUnseen } from './film';
 
 /** Frames that a component is to be followed over, from those that a person set. */
 export interface Span {
@@ -29,6 +29,8 @@ export interface Given {
   readonly isDoubtful: boolean;
   /** It was followed, and somebody found it right as it was. */
   readonly isAccepted: boolean;
+  /** A click led to it, and the film corrects it. */
+  readonly isClicked: boolean;
 }
 
 /** Null where nothing is to be done: no frame is set, or all that lies between is followed from those that are. */
@@ -93,10 +95,10 @@ function givenIn(doc: Doc, place: Place, frame: number): Given | null {
   const isChecked = checkState(cell, markOf(doc, place)) === 'yes';
   if (isFollowed(cell.result)) {
     const led = hasLed(cell.result);
-    return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led } : null;
+    return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led, isClicked: false } : null;
   }
   const isDoubtful = !isChecked && !isByHand(cell.result) && verdictAlone(cell.result)?.word === 'doubtful';
-  return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false };
+  return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false, isClicked: isFound(cell) };
 }
 
 function keyAmong(given: readonly Given[], frame: number): string {
@@ -118,7 +120,7 @@ function leadsAmong(given: readonly Given[], frame: number): readonly Given[] {
 function isFromThese(origin: string, given: readonly Given[], frame: number): boolean {
   if (origin.endsWith(keyAmong(given, frame))) return true;
   const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
-  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && isNearUnseen(led[at]!.pose, lead.pose));
+  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && (lead.isClicked ? isCorrectedUnseen : isNearUnseen)(led[at]!.pose, lead.pose));
 }
 
 /** What `keyAmong` wrote. */
