@@ -2,7 +2,7 @@
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
 use fluoropose::finder::{Doubt, Found, Limits, Verdict, contenders, judge};
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
@@ -247,10 +247,7 @@ impl Chosen {
 fn doubt_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
     let open = choice.open?;
     let (chosen, other) = (candidates.get(choice.index)?, candidates.get(open.index)?);
-    Some(Doubt::Open {
-        turn_deg: geodesic_deg(&chosen.pose.rotation, &other.pose.rotation),
-        other_px: other.residual_px,
-    })
+    Some(Doubt::open(&chosen.pose, &other.pose, other.residual_px))
 }
 
 /// Chooses among refined poses (six numbers each, one after another) with their misfits in pixels, when more has become

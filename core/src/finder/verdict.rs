@@ -12,8 +12,8 @@ use heapless::Vec;
 use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{Choice, OpenRival, RivalPose};
 use crate::joint::beside::Beside;
-use crate::math::Decimal;
-use crate::pose::geodesic_deg;
+use crate::math::{Decimal, norm, subtract};
+use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{Fit, MET_WITHIN_PX};
 use crate::shortlist::first_of;
 
@@ -99,6 +99,8 @@ pub enum Doubt {
     Open {
         /// Turn from the chosen pose to that one, degrees.
         turn_deg: f64,
+        /// How far the model's origin is from there, mm.
+        shift_mm: f64,
         /// Its misfit, pixels.
         other_px: f64,
     },
@@ -165,6 +167,18 @@ impl fmt::Display for Verdict {
     }
 }
 
+impl Doubt {
+    /// That another pose than the chosen one fits as well, with its misfit in pixels.
+    #[must_use]
+    pub fn open(chosen: &Pose, other: &Pose, other_px: f64) -> Self {
+        Self::Open {
+            turn_deg: geodesic_deg(&chosen.rotation, &other.rotation),
+            shift_mm: norm(&subtract(&chosen.translation, &other.translation)),
+            other_px,
+        }
+    }
+}
+
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -210,14 +224,21 @@ impl fmt::Display for Doubt {
                     "{px} px remain, on this film at most {limit_px} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
                 )
             }
-            Self::Open { turn_deg, other_px } => {
-                // What is written as 1.
-                let is_one = turn_deg > 0.5 && turn_deg < 1.5;
-                let unit = if is_one { "degree" } else { "degrees" };
+            Self::Open {
+                turn_deg,
+                shift_mm,
+                other_px,
+            } => {
+                // What is written as 0 tells nothing, and what is written as 1 is one.
+                let (away, unit) = match turn_deg {
+                    ..0.5 => (shift_mm, "mm"),
+                    ..1.5 => (turn_deg, "degree"),
+                    _ => (turn_deg, "degrees"),
+                };
                 write!(
                     f,
                     "another pose, {} {unit} away, fits as well ({} px), and nothing tells which is right",
-                    Decimal::new(turn_deg, 0),
+                    Decimal::new(away, 0),
                     Decimal::new(other_px, 2)
                 )
             }
@@ -268,10 +289,7 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
     let chosen = candidates.get(choice.index)?;
     let open = choice.open.and_then(|OpenRival { index, .. }| {
         let other = candidates.get(index)?;
-        Some(Doubt::Open {
-            turn_deg: geodesic_deg(&chosen.pose.rotation, &other.pose.rotation),
-            other_px: other.misfit(),
-        })
+        Some(Doubt::open(&chosen.pose, &other.pose, other.misfit()))
     });
     let determined = chosen.refined.is_none() || chosen.covariance.is_some();
     Some(judge_fit(&chosen.fit, determined, limits).or_doubt(open))
@@ -328,11 +346,14 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn one_degree_is_not_several() {
-        for (turn_deg, words) in [(0.4, "0 degrees"), (1.2, "1 degree "), (1.6, "2 degrees")] {
-            let other_px = 0.3;
-            let doubt = Doubt::Open { turn_deg, other_px }.to_string();
-            assert!(doubt.contains(words), "{doubt}");
+    fn one_degree_is_not_several_and_none_is_told_as_a_shift() {
+        for (turn_deg, words) in [(0.4, "12 mm away"), (1.2, "1 degree "), (1.6, "2 degrees")] {
+            let doubt = Doubt::Open {
+                turn_deg,
+                shift_mm: 12.0,
+                other_px: 0.3,
+            };
+            assert!(doubt.to_string().contains(words), "{doubt}");
         }
     }
     #[test]
@@ -421,9 +442,9 @@ mod tests {
                 open,
             };
             judge(&all, &choice, &Limits::USUAL).map(|verdict| match verdict {
-                Verdict::Doubtful(Doubt::Open { turn_deg, other_px }) => {
-                    (libm::round(turn_deg), other_px > 0.19)
-                }
+                Verdict::Doubtful(Doubt::Open {
+                    turn_deg, other_px, ..
+                }) => (libm::round(turn_deg), other_px > 0.19),
                 Verdict::Doubtful(Doubt::Undetermined) => (-1.0, false),
                 Verdict::Good => (0.0, false),
                 other => panic!("{other}"),
