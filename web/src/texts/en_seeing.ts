@@ -45,7 +45,7 @@ export const seeing = {
         ? 'Nothing is seen along the outline.'
         : `${Math.round(100 * met)} % of ${seen(known)} lies on edges, ${residual.toFixed(2)} px off. They are drawn ${times} times as far.`,
     reading: 'Reading the frame’s edges ...',
-    none: 'A pose has its edges here.',
+    none: 'The edges of a pose show here once there is one.',
   },
   space: {
     region: 'Models in space',
