@@ -175,7 +175,6 @@ impl FlippedKnee {
         let Some(flipped) = self.flipped(fits) else {
             return;
         };
-        let is_better = flipped.times >= DECISIVE_RATIO;
         let known = || apart.iter().filter(|mm| mm.is_finite());
         let own_mm = median(known().map(|mm| mm.abs()));
         for (told, mm) in told.iter_mut().zip(apart) {
@@ -187,7 +186,7 @@ impl FlippedKnee {
                     flipped: None,
                 })
             };
-            if told.is_none() && is_better && mm.is_finite() {
+            if told.is_none() && flipped.is_better && mm.is_finite() {
                 *told = new();
             }
             if let Some(told) = told {
@@ -208,9 +207,11 @@ impl FlippedKnee {
         };
         let mm = median(fits.iter().map(apart))?;
         let is_knee = mm <= self.middles.most_mm();
+        let times = sqrt(femur * tibia);
         (fit_as_well && is_knee).then_some(Flipped {
             mm,
-            times: sqrt(femur * tibia),
+            times,
+            is_better: times >= DECISIVE_RATIO,
         })
     }
 }

@@ -20,8 +20,6 @@ const CONDYLE_OF_WIDTH: f64 = 1.0 / 3.0;
 
 /// A tray's width, in what a knee allows of both that are equally wide: a half less a third is a sixth.
 const WHOLE_TRAY: f64 = 6.0;
-/// Flipping is what the fit asks for where so many times as much remains without.
-const CLEARLY: f64 = 1.1;
 
 /// How far the middles of both components of a knee lie beside each other. Whose side of the body it is does not matter, nor which end of
 /// an axis is which.
@@ -59,6 +57,8 @@ pub struct Flipped {
     pub mm: f64,
     /// How many times as much remains between the outlines without flipping; above 1 both fit better flipped.
     pub times: f64,
+    /// Whether that is so many times as decides between poses.
+    pub is_better: bool,
 }
 
 /// A component in a frame.
@@ -231,7 +231,7 @@ impl fmt::Display for Beside {
                 "that is farther than the tray is wide, which no mirrored picture does: is a model in another unit, or are poses or models those of the other component?",
             );
         }
-        let tells = flipped.filter(|flipped| flipped.times >= CLEARLY);
+        let tells = flipped.filter(|flipped| flipped.is_better);
         f.write_str(match (of_film, tells) {
             (true, Some(_)) => "are the pictures mirrored, or the models those of the other side of the body?",
             (true, None) => "are the pictures mirrored, the models those of the other side of the body, or the poses of one component wrong throughout?",
@@ -244,7 +244,7 @@ impl fmt::Display for Beside {
                 " Flipped left to right both fit about as well and lie {} mm beside each other. Where the pictures are mirrored, flip them and the masks, or take the models of the other side; where they are not, look at the poses",
                 Decimal::new(mm, 0)
             ),
-            Some(Flipped { mm, times }) => write!(
+            Some(Flipped { mm, times, .. }) => write!(
                 f,
                 " Flipped left to right both fit ({} times as much remains without) and lie {} mm beside each other: flip pictures and masks, or take the models of the other side",
                 Decimal::new(times, 1),

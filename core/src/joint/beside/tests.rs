@@ -169,6 +169,7 @@ fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
     beside.flipped = Some(Flipped {
         mm: 1.2,
         times: 1.84,
+        is_better: true,
     });
     let words = format!("{beside}");
     assert!(
@@ -179,6 +180,7 @@ fn it_is_said_in_words_what_may_be_wrong_and_what_to_do() {
     beside.flipped = Some(Flipped {
         mm: 1.2,
         times: 1.04,
+        is_better: false,
     });
     let words = format!("{beside}");
     assert!(
