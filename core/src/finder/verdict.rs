@@ -229,21 +229,24 @@ impl fmt::Display for Doubt {
                 shift_mm,
                 other_px,
             } => {
-                // What is written as 0 tells nothing, and what is written as 1 is one.
-                let (away, unit) = match turn_deg {
-                    ..0.5 => (shift_mm, "mm"),
-                    ..1.5 => (turn_deg, "degree"),
-                    _ => (turn_deg, "degrees"),
-                };
+                let (away, unit) = away(turn_deg, shift_mm);
                 write!(
                     f,
-                    "another pose, {} {unit} away, fits as well ({} px), and nothing tells which is right",
-                    Decimal::new(away, 0),
+                    "another pose, {away} {unit} away, fits as well ({} px), and nothing tells which is right",
                     Decimal::new(other_px, 2)
                 )
             }
             Self::Mirrored(beside) => beside.fmt(f),
         }
+    }
+}
+
+/// How far away another pose is, as it is written: by its turn, and where that would be 0, by its shift.
+fn away(turn_deg: f64, shift_mm: f64) -> (Decimal, &'static str) {
+    match turn_deg {
+        ..0.5 => (Decimal::new(shift_mm, 0), "mm"),
+        ..1.5 => (Decimal::new(turn_deg, 0), "degree"),
+        _ => (Decimal::new(turn_deg, 0), "degrees"),
     }
 }
 

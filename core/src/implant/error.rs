@@ -15,7 +15,7 @@ pub enum ImplantError {
     Magic,
     /// The layout is unknown.
     #[error(
-        "the implant file has version {0}; this program reads versions 0 to {VERSION}. Make it again, or read it with a newer one"
+        "the implant file has version {0}; this program reads versions 0 to {VERSION}. Make it again, or read it with a newer program"
     )]
     Version(u16),
     /// The bytes do not begin at a multiple of four, or numbers run the other way on this machine.
