@@ -367,7 +367,7 @@ export function verdictOf(result: Result | null): Verdict | null {
   if (aside !== undefined) return { word: 'doubtful', because: aside };
   const verdict = verdictAlone(result);
   // That it fits is why there was a choice: which of them is right stays open until a person has accepted it.
-  if (isTaken(result) && result.verdict?.word === 'doubtful' && verdict?.word === 'good') return { word: 'doubtful', because: texts.follow.taken(result.verdict.because) };
+  if (isTaken(result) && result.verdict && verdict?.word === 'good') return { word: 'doubtful', because: texts.follow.taken(result.verdict.word, result.verdict.because) };
   return verdict;
 }
 

@@ -128,6 +128,8 @@ describe('progress', () => {
     expect(isDoubtful()).toBe(true);
     giveResult(store, place(0), { candidates, decided: false, verdict: good.verdict });
     expect(isDoubtful()).toBe(false);
+    giveResult(store, place(0), { candidates, verdict: good.verdict, chosen: 1 });
+    expect(isDoubtful()).toBe(true);
   });
 
   it('goes to what has no pose, component by component and round, then to what nobody checked', () => {
