@@ -58,9 +58,10 @@ export const curves = {
   good: 'not doubtful',
   doubtful: 'doubtful',
   checked: 'checked',
-  /** Before a sentence of the core without its full stop. */
+  /** A translation of the first frame of which that is so. */
   originsApart: (mm: string) =>
     `A translation is ${mm} mm, as in no knee: the origin of a model's file lies far off its component. Translations are of these origins; rotations and lowest points are free of them.`,
+  /** Before a sentence of the core without its full stop. */
   impossible: (frames: string, count: number, why: string) => `${count === 1 ? 'Frame' : 'Frames'} ${frames}: ${why}. Not drawn.`,
   allDoubtful: (frames: number) => `All ${frames} frames are doubtful.`,
   hovered: (frame: number) => `numbers of frame ${frame}`,
