@@ -43,6 +43,12 @@ pageTest('bad input', async (page, t) => {
     await stillThere(page, stage, work);
   });
 
+  await step(page, t, 'two bad files: both are named', async () => {
+    await drop(page, file('notes.docx', 'PK\u0003\u0004 nothing of ours'), { ...png(8), name: 'cut.png', buffer: png(8).buffer.subarray(0, 40) }, { ...png(16), name: 'torn.png', buffer: png(16).buffer.subarray(0, 40) });
+    await panel.waitForWords(page, /cut\.png: .*torn\.png: /);
+    await stillThere(page, stage, work);
+  });
+
   await step(page, t, 'a frame of another size, and a calibration in pixels a mm', async () => {
     await choose(page, { ...png(8), name: 'small.png' });
     await panel.waitForWords(page, /^small\.png is 24 x 16 pixels but 0001\.png is 1024 x 1024 pixels: a film has frames of one size/);
@@ -77,6 +83,16 @@ pageTest('bad input', async (page, t) => {
       t.diagnostic(await refused(page, bad.name, bit < MAGIC_BITS ? /not recognised/ : /damaged/));
       await stillThere(page, stage, work);
     }
+  });
+
+  await step(page, t, 'another study, dropped on this one, is one of its own', async () => {
+    await drop(page, { ...png(8), name: 'other.png' }, await demoFile('calibration.txt'), await demoFile('femur.stl'));
+    await panel.waitForFrames(page, 1);
+    await panel.waitForWords(page, /It is a study of its own: .* is under Save, Earlier work/);
+    await screenshot(page, 'another_study');
+    await page.getByRole('button', { name: /^Back to / }).click();
+    await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
+    await panel.waitForThePose(page, work.pose);
   });
 });
 
@@ -144,7 +160,7 @@ async function stillThere(page, stage, work) {
 
 /** The sentence that refuses a file. @param {Page} page @param {string} name @param {RegExp} words */
 async function refused(page, name, words) {
-  const sentence = await panel.waitForWords(page, new RegExp(`^${name}: `));
+  const sentence = await panel.waitForWords(page, new RegExp(`(^| )${name}: `));
   assert.match(sentence, words);
   assert(sentence.split(' ').length > 6, `a whole sentence: ${sentence}`);
   assert.doesNotMatch(sentence.slice(name.length), GIBBERISH);

@@ -12,6 +12,7 @@ import {
   type Component,
   type Doc,
   EMPTY_CELL,
+  EMPTY_DOC,
   type FileReference,
   type ModelReference,
   type FrameEntry,
@@ -164,6 +165,11 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
 }
 
 // --- What is opened ---------------------------------------------------------------------------------------------
+
+/** A document nobody began: undo goes back to what was before. */
+export function startAnew(): Command {
+  return { label: texts.keep.startAnewLabel, apply: () => EMPTY_DOC };
+}
 
 /** Behind those that are there; with an order of names each at its place among them. */
 /** `unread`: files that could not be read, of these frames and those before. */

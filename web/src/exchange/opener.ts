@@ -1,7 +1,7 @@
 import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
-import { asSentence } from '../texts/sentences';
+import { asSentence, ended } from '../texts/sentences';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
@@ -18,6 +18,8 @@ import { rowsOfFrames } from './pose_rows';
 import { offerStatedOrder } from './stated_order';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
+import type { Offer } from '../document/store';
+import { areOthers, stepAside } from './another_study';
 import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
@@ -44,13 +46,14 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   const leftOut: string[] = [];
   const study = await studyAmong(all, failed);
   const recognised = study ? asTheStudyMeans(study, all, leftOut) : all;
+  const outlines = await outlineFiles(services, recognised);
+  const others = recognised.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
+  const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
+  const aside = isWhole(study, others) && (await areOthers(services, frames)) ? stepAside(services) : null;
   for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
     const sentence = await mismatchOf(services, file);
     if (sentence) failed.push(sentence);
   }
-  const outlines = await outlineFiles(services, recognised);
-  const others = recognised.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
-  const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
   // Of a whole folder what is not recognised is told in one sentence.
   const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
@@ -63,11 +66,19 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
   store.show({ component: atHand(store.doc, store.ui.component) });
-  tell(services, opened, failed, leftOut);
+  // It stands in the line with what is shown last.
+  if (aside) (failed.length > 0 ? failed : leftOut).unshift(aside.sentence);
+  tell(services, opened, failed, leftOut, aside?.offer);
   offerStated(services, frames.length > 0);
   offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** All that a film needs comes with it: poses, models and calibration of another one would be wrong beside it. */
+function isWhole(study: StudyFile | null, files: readonly Recognised[]): boolean {
+  const has = (kind: FileKind) => files.some((file) => file.kind === kind);
+  return has('frames') && (study !== null || (has('calibration') && has('model')));
 }
 
 /** Of several files of poses of a component nothing is taken before a person says which. */
@@ -245,11 +256,19 @@ function named(name: string, sentence: string): string {
   return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
 }
 
+/** So many sentences of what failed fit the line, which shows one notice; the list of messages has them all. */
+const SHOWN = 3;
+
 /** What was left out of a folder is news, no error: nobody asked for it. */
-function tell({ store }: Services, opened: readonly string[], failed: readonly string[], leftOut: readonly string[] = []): void {
+function tell({ store }: Services, opened: readonly string[], failed: readonly string[], leftOut: readonly string[] = [], offer?: Offer): void {
   const news = [...(opened.length > 0 ? [texts.said.opened(opened.join(', '))] : []), ...leftOut];
-  if (news.length > 0) store.say(opened.length > 0 ? 'info' : 'error', news.join(' '));
-  for (const sentence of failed) store.say('error', sentence);
+  if (news.length > 0) store.say(opened.length > 0 ? 'info' : 'error', news.join(' '), offer);
+  if (failed.length === 0) return;
+  for (const sentence of failed.slice(SHOWN)) store.say('error', sentence);
+  const rest = failed.length - SHOWN;
+  const more = rest > 0 ? [later.opening.andMoreFiles(rest)] : [];
+  const [only = '', ...others] = [...failed.slice(0, SHOWN), ...more];
+  store.say('error', others.length === 0 ? only : [only, ...others].map(ended).join(' '), offer);
 }
 
 /** Says what was opened; what is amiss all the same goes to `remarks`. */

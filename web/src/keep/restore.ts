@@ -1,21 +1,17 @@
 import { readDoc, readView, SESSION_VERSION } from '../document/session/session';
 import { ReadError } from '../document/reader';
-import { EMPTY_DOC, type Doc } from '../document/types';
+import type { Doc } from '../document/types';
 import { TOOL_NAMES } from '../terms/tool';
 import { texts } from '../texts/texts';
+import { stepAside } from '../exchange/another_study';
 import { bringFiles } from '../exchange/bring_files';
 import { sentenceOf, type Services } from '../jobs/services';
 import type { Keeper } from './keeper';
 import type { KeptWork } from './shelf';
 import { work } from '../workers/activity';
 
-/** A document nobody began: undo goes back to what was before. */
-const START_ANEW = { label: texts.keep.startAnewLabel, apply: () => EMPTY_DOC };
-
 export function startAnew({ store }: Services): void {
-  store.perform(START_ANEW);
-  store.show({ viewport: null, popover: null, savedAt: null, selectedPoint: null });
-  store.goTo(0);
+  stepAside({ store });
   store.say('info', texts.keep.startedAnew);
 }
 

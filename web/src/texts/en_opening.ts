@@ -1,6 +1,9 @@
 /** What is said when files come, by what comes with them. */
 export const opening = {
   archive: 'this is an archive, which the page does not look into: unpack it, and open the folder',
+  steppedAside: (name: string) => `It is a study of its own: ${name || 'what was open'} is under Save, Earlier work.`,
+  backTo: (name: string) => `Back to ${name || 'what was open'}`,
+  andMoreFiles: (count: number) => `${count} more are in the list of messages.`,
   otherOrder: (byName: string, byPlace: string) =>
     `Frames stand by the names of their files, which state another order (Instance Number): ${byName} is first by name, ${byPlace} by number. Which is that of time?`,
   take: 'Order by number',
