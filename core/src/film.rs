@@ -7,6 +7,7 @@
 //! - [`lines`]: the path of X-rays through a mesh along lines across its outline.
 //! - [`model`]: constants of a film, and the profile and the edge that they make of paths.
 //! - [`profile`], [`mod@estimate`]: profiles read from frames, and the constants that explain them.
+//! - [`SquareChoice`]: the squares of pixels that a film finer than its blur is read in.
 //! - [`given`]: what a person states instead. [`pool`]: the profiles of a study, for callers that have an allocator.
 
 mod drawn;
@@ -20,6 +21,7 @@ pub mod model;
 pub mod pool;
 pub mod profile;
 mod sharpening;
+mod squares;
 
 pub use estimate::{FilmEstimate, estimate, estimate_with};
 pub use given::{DisplayKind, GivenFilm};
@@ -29,3 +31,4 @@ pub use model::{FilmConstants, FilmModel};
 pub use pool::FilmPool;
 pub use profile::FilmProfile;
 pub use sharpening::{MetalContrast, Sharpening};
+pub use squares::SquareChoice;

@@ -17,4 +17,5 @@ pub mod runs;
 pub mod scan;
 pub mod shuttered;
 pub mod silhouette;
+mod squares;
 pub(crate) mod tiles;

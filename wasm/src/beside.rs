@@ -1,5 +1,6 @@
 //! Components that lie beside each other as in no knee, over the page's film.
 
+use fluoropose::camera::Camera;
 use fluoropose::finder::{FlippedKnee, FlippedLooks};
 use fluoropose::image::grey::Grey;
 use fluoropose::joint::beside::{Beside, Lying, Middles};
@@ -10,6 +11,7 @@ use fluoropose::refine::{CameraView, ImageTarget, RefineBuffers, RefineOptions, 
 use wasm_bindgen::prelude::*;
 
 use crate::film::film_model;
+use crate::squares::{look_in_squares, square_px};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -112,21 +114,24 @@ impl KneeMiddles {
         };
         let number = usize::from(component == KneeComponent::Tibia);
         let model = self.models[number].as_model();
-        let fit = |pose: Pose, frame: &dyn Grey| {
+        let fit = |pose: Pose, frame: &dyn Grey, camera: &Camera| {
             let mut buffers = RefineBuffers::default();
-            let mut memory = buffers.borrow(&model, &camera);
+            let mut memory = buffers.borrow(&model, camera);
             let image = ImageTarget {
                 frame,
                 unknown: None,
-                polarity: polarity_at(&model, &camera, &pose, frame, &mut memory).ok()?,
+                polarity: polarity_at(&model, camera, &pose, frame, &mut memory).ok()?,
                 film,
             };
-            let (own, view) = ((&model, &pose), CameraView::only(&camera, image));
+            let (own, view) = ((&model, &pose), CameraView::only(camera, image));
             let options = RefineOptions::default();
             looked.knee.fit(component, own, view, options, &mut buffers)
         };
         let pose = looked.poses[number].get(at).copied().flatten();
-        let fit = frame.look(|frame| Ok(pose.and_then(|pose| fit(pose, frame))))?;
+        let side = square_px(film.as_ref());
+        let fit = look_in_squares(side, frame, &camera, None, |frame, camera, _| {
+            Ok(pose.and_then(|pose| fit(pose, frame, camera)))
+        })?;
         looked.looks.take(fit);
         Ok(())
     }

@@ -3,7 +3,7 @@
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{
     DisplayKind, FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm,
-    MetalContrast, Sharpening,
+    MetalContrast, Sharpening, SquareChoice,
 };
 use fluoropose::finder::FilmMisfits;
 use wasm_bindgen::prelude::*;
@@ -23,6 +23,16 @@ impl FilmStudy {
     #[must_use]
     pub fn new() -> FilmStudy {
         Self::default()
+    }
+
+    /// The same for profiles that are read in squares with sides of so many pixels.
+    #[wasm_bindgen(js_name = inSquares)]
+    #[must_use]
+    pub fn in_squares(side: usize) -> FilmStudy {
+        Self {
+            pool: FilmPool::in_squares(side),
+            ..Self::default()
+        }
     }
 
     /// The largest usual misfit of a component's poses on a film, pixels, by those of the same component in other frames and those
@@ -88,6 +98,40 @@ impl FilmStudy {
     }
 }
 
+/// Finds the squares of pixels that a film is read in; see the core's `SquareChoice`.
+#[wasm_bindgen]
+pub struct FilmSquares(SquareChoice);
+
+#[wasm_bindgen]
+impl FilmSquares {
+    /// Of a film of which a person states the blur or not.
+    #[wasm_bindgen(constructor)]
+    #[must_use]
+    pub fn new(is_stated: bool) -> FilmSquares {
+        Self(SquareChoice::new(is_stated))
+    }
+
+    /// The side of the squares to read profiles in next, pixels; nothing once it is known.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn wanted(&self) -> Option<usize> {
+        self.0.wanted()
+    }
+
+    /// Takes what the profiles that were read in these squares tell, or that they tell nothing.
+    pub fn take(&mut self, facts: Option<FilmFacts>) {
+        let blur = |facts: FilmFacts| facts.estimate.constants.blur_px;
+        self.0.take(facts.map(blur));
+    }
+
+    /// The side of the squares that are well so far, pixels.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn side(&self) -> usize {
+        self.0.square_px()
+    }
+}
+
 /// What a person states of a film.
 fn given(display: Option<String>, blur_px: Option<f64>) -> Result<GivenFilm, JsError> {
     let display = display.as_deref().map(kind).transpose()?;
@@ -129,11 +173,12 @@ impl FilmFacts {
         self.estimate.to_string()
     }
 
-    /// Standard deviation of everything that blurs, pixels.
+    /// Standard deviation of everything that blurs, pixels of the frames.
     #[wasm_bindgen(getter)]
     #[must_use]
     pub fn blur(&self) -> f64 {
-        self.estimate.constants.blur_px
+        let constants = &self.estimate.constants;
+        constants.blur_px * constants.square_px as f64
     }
 
     /// Curvature of the display times the contrast of metal: 0 linear, from 1 on logarithmic.
@@ -150,8 +195,9 @@ impl FilmFacts {
         self.estimate.profiles
     }
 
-    /// Sixteen numbers: curvature, blur, a component's attenuation, and their covariance row by row; amount and radius (px) of
-    /// enhanced edges, and what the component's metal shows: grey values between both of its sides and the part that passes it.
+    /// Seventeen numbers: curvature, blur, a component's attenuation, and their covariance row by row; amount and radius of
+    /// enhanced edges, and what the component's metal shows: grey values between both of its sides and the part that passes it; the side of the
+    /// squares that the film is read in, pixels, which blur and radius are in.
     /// Nothing where no frame of that component was read.
     #[must_use]
     pub fn model(&self, component: usize) -> Option<Vec<f64>> {
@@ -165,19 +211,20 @@ fn numbers_of(model: &FilmModel) -> Vec<f64> {
         curvature,
         blur_px,
         sharpening: Sharpening { amount, radius_px },
+        square_px,
     } = model.constants;
     let MetalContrast { grey, passed } = model.contrast;
     let constants = [curvature, blur_px, model.attenuation];
     constants
         .iter()
         .chain(model.covariance.as_flattened())
-        .chain(&[amount, radius_px, grey, passed])
+        .chain(&[amount, radius_px, grey, passed, square_px as f64])
         .copied()
         .collect()
 }
 
-/// What a film makes of a component: sixteen numbers as [`FilmFacts::model`] has them, the first twelve where no edges were
-/// enhanced, or the first three, which are then taken as they are. Nothing where there are none.
+/// What a film makes of a component: seventeen numbers as [`FilmFacts::model`] has them, the first sixteen of a film that is read as it is, the
+/// first twelve where no edges were enhanced either, or the first three, which are then taken as they are. Nothing where there are none.
 pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> {
     let (constants, covariance) = match *numbers {
         [] => return Ok(None),
@@ -199,7 +246,10 @@ pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> 
     match covariance.as_chunks::<3>() {
         ([], []) => {}
         ([a, b, c], []) => model.covariance = [*a, *b, *c],
-        ([a, b, c, [amount, radius_px, grey]], [passed]) => {
+        ([a, b, c, [amount, radius_px, grey]], [passed, square @ ..]) => {
+            if let [side] = *square {
+                model.constants.square_px = whole_side(side)?;
+            }
             model.covariance = [*a, *b, *c];
             let [amount, radius_px, grey, passed] = [*amount, *radius_px, *grey, *passed];
             model.constants.sharpening = Sharpening { amount, radius_px };
@@ -210,9 +260,18 @@ pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> 
     Ok(Some(model))
 }
 
+/// Sides of squares are no longer than this, pixels.
+const MOST_SIDE: f64 = 64.0;
+
+fn whole_side(side: f64) -> Result<usize, JsError> {
+    let is_one = side.fract() == 0.0 && (1.0..=MOST_SIDE).contains(&side);
+    let told = || JsError::new("A film is read in squares of 1 to 64 pixels a side");
+    is_one.then_some(side as usize).ok_or_else(told)
+}
+
 fn wrong_count(numbers: &[f64]) -> JsError {
     JsError::new(&format!(
-        "A film has 3, 12 or 16 numbers, but {} were given",
+        "A film has 3, 12, 16 or 17 numbers, but {} were given",
         numbers.len()
     ))
 }
@@ -239,6 +298,11 @@ mod tests {
             grey: 60.0,
             passed: 0.2,
         };
+        assert_eq!(
+            film_model(&numbers_of(&model)[..16]).ok(),
+            Some(Some(model))
+        );
+        model.constants.square_px = 2;
         assert_eq!(film_model(&numbers_of(&model)).ok(), Some(Some(model)));
         assert_eq!(film_model(&[]).ok(), Some(None));
     }

@@ -14,6 +14,7 @@ pub use film_reader::FilmReader;
 
 use crate::film::film_model;
 use crate::found::{Uncertainty, uncertainty};
+use crate::squares::square_px;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};
@@ -56,12 +57,14 @@ impl FilmFollower {
         last: usize,
         film: &[f64],
     ) -> Result<FilmFollower, JsError> {
-        let seen = Seen::new((vertices, triangles), calibration, (width, height))?;
+        let film = film_model(film)?;
+        let side = square_px(film.as_ref());
+        let seen = Seen::new((vertices, triangles), calibration, (width, height), side)?;
         Ok(Self {
             following: Following::new(seen.middle(), frames, first..last + 1),
             seen,
             given: Vec::new(),
-            film: film_model(film)?,
+            film,
             undecided: None,
         })
     }

@@ -25,6 +25,7 @@ use crate::film::film_model;
 use crate::hidden::with_mask;
 use crate::matcher::OpenLibrary;
 use crate::shape::Shape;
+use crate::squares::square_px;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -36,7 +37,11 @@ pub struct FrameSearch {
     library: OpenLibrary,
     model: OwnedModel,
     planes: Vec<SymmetryPlane>,
+    /// Of whole frames, and of those in the squares that the film is read in.
+    whole: Camera,
     camera: Camera,
+    /// The frame that is searched, where those are not pixels.
+    squares: Option<FrameImage>,
     polarity: Polarity,
     film: Option<FilmModel>,
     /// Which component it is and its axes, where its shape tells them.
@@ -107,11 +112,14 @@ impl FrameSearch {
         height: u32,
     ) -> Result<FrameSearch, JsError> {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
+        let camera = camera(calibration, width, height)?;
         Ok(Self {
             library: OpenLibrary::of(library)?,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
             model,
-            camera: camera(calibration, width, height)?,
+            whole: camera,
+            camera,
+            squares: None,
             polarity: Polarity::DarkImplant,
             film: None,
             shape: None,
@@ -178,6 +186,7 @@ impl FrameSearch {
     #[wasm_bindgen(js_name = knowFilm)]
     pub fn know_film(&mut self, film: &[f64]) -> Result<(), JsError> {
         self.film = film_model(film)?;
+        self.camera = self.whole.reduced(self.side()).map_err(sentence)?;
         Ok(())
     }
 
@@ -220,9 +229,9 @@ impl FrameSearch {
     pub fn is_bright(&mut self, frame: &FrameImage, pose: &[f64]) -> Result<bool, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let model = self.model.as_model();
-        let mut memory = self.refine.borrow(&model, &self.camera);
+        let mut memory = self.refine.borrow(&model, &self.whole);
         let told = frame.look(|frame| {
-            polarity_at(&model, &self.camera, &pose, frame, &mut memory).map_err(sentence)
+            polarity_at(&model, &self.whole, &pose, frame, &mut memory).map_err(sentence)
         })?;
         Ok(told == Polarity::BrightImplant)
     }
@@ -232,6 +241,10 @@ impl FrameSearch {
     /// # Errors
     /// A sentence about a frame of another size.
     pub fn step(&mut self, frame: &FrameImage, fresh: bool) -> Result<bool, JsError> {
+        if fresh {
+            self.squares = self.in_squares(frame)?;
+        }
+        let frame = self.squares.as_ref().unwrap_or(frame);
         let model = self.model.as_model();
         let component = Component {
             library: self.library.borrow_dependent(),
@@ -302,7 +315,8 @@ impl FrameSearch {
                     .project(&search.found()?.pose.transform(&middle))?
             }
         };
-        Some(vec![place.column, place.row])
+        let side = self.side() as f64;
+        Some(vec![side * place.column, side * place.row])
     }
 
     /// Six numbers of the pose that was found.
@@ -340,6 +354,8 @@ impl FrameSearch {
     /// The core's sentence about a pose that was given and cannot be drawn.
     #[wasm_bindgen(js_name = walkTake)]
     pub fn walk_take(&mut self, frame: &FrameImage) -> Result<(), JsError> {
+        let squares = self.in_squares(frame)?;
+        let frame = squares.as_ref().unwrap_or(frame);
         let Some(walk) = &mut self.walk else {
             return Ok(());
         };
@@ -375,6 +391,17 @@ impl FrameSearch {
 }
 
 impl FrameSearch {
+    /// Side of the squares that the film is read in, pixels.
+    fn side(&self) -> usize {
+        square_px(self.film.as_ref())
+    }
+
+    /// A frame in those, where they are not pixels.
+    fn in_squares(&self, frame: &FrameImage) -> Result<Option<FrameImage>, JsError> {
+        let side = self.side();
+        (side > 1).then(|| frame.reduced(side)).transpose()
+    }
+
     fn found(&self) -> Option<&FramePose> {
         match self.search.as_ref()? {
             Search::Whole(search) => search.found().map(|found| &found.pose),

@@ -25,6 +25,7 @@ mod library_check;
 mod matcher;
 mod search_plan;
 mod shape;
+mod squares;
 mod working_model;
 
 pub use anatomy::{ShapeAxes, flange_side, shape_axes, shape_component};

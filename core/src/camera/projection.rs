@@ -202,6 +202,23 @@ impl Camera {
         })
     }
 
+    /// The same camera for frames in squares of `side` x `side` pixels ([`crate::image::frame::Frame::reduce`]): poses are the same.
+    ///
+    /// # Errors
+    /// [`CameraError::Value`] when no square fits.
+    pub fn reduced(&self, side: usize) -> Result<Self, CameraError> {
+        let factor = side.max(1);
+        let f = factor as f64;
+        let camera = Self::new(
+            self.width / factor,
+            self.height / factor,
+            [self.fx / f, self.fy / f],
+            [self.cx / f, self.cy / f],
+        )?;
+        let detector = self.detector;
+        Ok(Self { detector, ..camera })
+    }
+
     /// The same camera for frames sampled `factor` times as finely in both directions.
     ///
     /// # Errors
@@ -229,6 +246,23 @@ mod tests {
             Camera::from_principal_distance(1024, 1024, 1198.0, 0.373, [0.0, 0.0]).expect("valid");
         let centre = camera.project(&[0.0, 0.0, -900.0]).expect("in front");
         assert_eq!((centre.column - 0.5, centre.row - 0.5), (511.5, 511.5));
+    }
+
+    #[test]
+    fn a_reduced_frame_shows_the_same_at_the_same_part_of_it() {
+        let camera =
+            Camera::from_principal_distance(801, 603, 1000.0, 0.5, [10.0, 20.0]).expect("valid");
+        let reduced = camera.reduced(2).expect("large enough");
+        assert_eq!((reduced.width(), reduced.height()), (400, 301));
+        let point = [30.0, 40.0, -500.0];
+        let [whole, half] = [camera, reduced].map(|one| one.project(&point).expect("in front"));
+        let twice = (2.0 * half.column, 2.0 * half.row);
+        assert!((whole.column - twice.0).abs() < 1e-9 && (whole.row - twice.1).abs() < 1e-9);
+        assert_eq!(
+            reduced.behind_detector(1001.0),
+            camera.behind_detector(1001.0)
+        );
+        assert!(camera.reduced(700).is_err());
     }
 
     #[test]

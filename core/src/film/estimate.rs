@@ -80,7 +80,9 @@ impl fmt::Display for FilmEstimate {
             curvature,
             blur_px,
             sharpening,
+            square_px,
         } = self.constants;
+        let side = square_px as f64;
         let kind = DisplayKind::of(curvature * self.contrast);
         f.write_str(match (self.display, kind) {
             (DisplayKnowledge::Untold, _) => {
@@ -97,13 +99,17 @@ impl fmt::Display for FilmEstimate {
         if kind == DisplayKind::Logarithmic && self.display != DisplayKnowledge::Either {
             write!(f, ", {:.0} grey values for a factor of e", 1.0 / curvature)?;
         }
-        write!(f, ", blur {blur_px:.1} px")?;
+        write!(f, ", blur {:.1} px", blur_px * side)?;
         if sharpening.amount > 0.0 {
             let Sharpening { amount, radius_px } = sharpening;
+            let radius = radius_px * side;
             write!(
                 f,
-                ", edges enhanced {amount:.1} times within {radius_px:.1} px"
+                ", edges enhanced {amount:.1} times within {radius:.1} px"
             )?;
+        }
+        if square_px > 1 {
+            write!(f, ", read in squares of {square_px} pixels")?;
         }
         Ok(())
     }
@@ -163,6 +169,7 @@ pub fn estimate_with(
                 true => sharpening(&at),
                 false => Sharpening::default(),
             },
+            square_px: 1,
         },
         attenuation: core::array::from_fn(|component| exp(at[2 + component])),
         metal: core::array::from_fn(|component| fit.metal(component, &at)),

@@ -58,6 +58,14 @@ pub struct GivenFilm {
 }
 
 impl GivenFilm {
+    /// The same where frames are read in squares with sides of so many pixels.
+    #[cfg(feature = "alloc")]
+    pub(super) fn in_squares(self, square_px: usize) -> Self {
+        let side = square_px.max(1) as f64;
+        let blur_px = self.blur_px.map(|blur_px| blur_px / side);
+        Self { blur_px, ..self }
+    }
+
     /// The curvatures for each contrast that it leaves open.
     pub(super) fn range(&self) -> [f64; 2] {
         self.display.map_or(CURVATURES, DisplayKind::range)

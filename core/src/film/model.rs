@@ -19,6 +19,9 @@ pub struct FilmConstants {
     pub blur_px: f64,
     /// How edges were enhanced.
     pub sharpening: Sharpening,
+    /// Side of the squares that frames are read in, pixels of the file ([`super::SquareChoice`]). What is said here in pixels is in such sides,
+    /// and so are the frames and cameras that it is used with.
+    pub square_px: usize,
 }
 
 impl FilmConstants {
@@ -29,6 +32,7 @@ impl FilmConstants {
             curvature,
             blur_px,
             sharpening: Sharpening::default(),
+            square_px: 1,
         }
     }
 }
@@ -101,6 +105,7 @@ impl FilmModel {
             curvature,
             blur_px,
             sharpening,
+            ..
         } = self.constants;
         let drawn = LineBlur::of(blur_px).blurred(&transmission(paths, self.attenuation));
         sharpening.of(&drawn, self.contrast.over_veil(curvature))

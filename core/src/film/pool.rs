@@ -22,12 +22,29 @@ pub fn profiles_of_each(poses: usize) -> usize {
 }
 
 /// The profiles of a study as they become known, each frame and component once.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct FilmPool {
     read: BTreeMap<(u8, u16), Vec<FilmProfile>>,
+    square_px: usize,
+}
+
+/// Of profiles in the file's own pixels.
+impl Default for FilmPool {
+    fn default() -> Self {
+        Self::in_squares(1)
+    }
 }
 
 impl FilmPool {
+    /// Of profiles that are read in squares with sides of so many pixels ([`FilmConstants::square_px`](super::FilmConstants::square_px)).
+    #[must_use]
+    pub fn in_squares(square_px: usize) -> Self {
+        Self {
+            read: BTreeMap::new(),
+            square_px,
+        }
+    }
+
     /// Takes the profiles of a frame and component, whose names they bear, in place of those it had.
     pub fn take(&mut self, component: u8, frame: u16, profiles: Vec<FilmProfile>) {
         if profiles.is_empty() || usize::from(component) >= MOST_COMPONENTS {
@@ -53,7 +70,7 @@ impl FilmPool {
     #[must_use]
     pub fn stands_by(&self, models: &[FilmModel], given: GivenFilm) -> bool {
         let mut profiles: Vec<FilmProfile> = self.read.values().flatten().copied().collect();
-        !leads_elsewhere(&mut profiles, models, given)
+        !leads_elsewhere(&mut profiles, models, given.in_squares(self.square_px))
     }
 
     /// The constants by these profiles, where those that are known do not [stand](Self::stands_by): the film that was followed with them is to be
@@ -71,7 +88,10 @@ impl FilmPool {
     pub fn estimate(&self, given: GivenFilm) -> Option<FilmEstimate> {
         let mut profiles: Vec<FilmProfile> = self.read.values().flatten().copied().collect();
         let components = self.read.keys().map(|&(component, _)| component).max();
-        estimate_with(&mut profiles, 1 + usize::from(components?), given)
+        let given = given.in_squares(self.square_px);
+        let mut found = estimate_with(&mut profiles, 1 + usize::from(components?), given)?;
+        found.constants.square_px = self.square_px;
+        Some(found)
     }
 }
 

@@ -32,6 +32,21 @@ impl Anchor {
         }
     }
 
+    /// The same where frames are read in squares with sides of so many of the pixels that it was found in: the pose is the same, and what is
+    /// told in pixels is in fewer.
+    #[must_use]
+    pub fn in_squares(&self, side: usize) -> Self {
+        let Self { found, usual, .. } = *self;
+        Self {
+            found: found.in_squares(side),
+            usual: Usual {
+                misfit_px: usual.misfit_px / side.max(1) as f64,
+                ..usual
+            },
+            ..*self
+        }
+    }
+
     /// At a pose that a person gave. Hands leave more than refinement does: what is usual is told by the pose that it leads to.
     ///
     /// # Errors

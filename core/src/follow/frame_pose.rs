@@ -31,6 +31,23 @@ pub struct FramePose {
 const WORST_PX2: f64 = 2.5 * 2.5 / 6.0;
 
 impl FramePose {
+    /// The same where frames are read in squares with sides of so many pixels.
+    pub(super) fn in_squares(&self, side: usize) -> Self {
+        let side = side.max(1) as f64;
+        let fit = self.fit;
+        Self {
+            fit: Fit {
+                residual_px: fit.residual_px / side,
+                misfit_px: fit.misfit_px / side,
+                apart_px: fit.apart_px.map(|apart| apart / side),
+                size_px: fit.size_px / side,
+                ..fit
+            },
+            misfit_px: self.misfit_px / side,
+            ..*self
+        }
+    }
+
     /// The pose with its covariance.
     pub(super) fn known(&self) -> (&Pose, Option<&PoseCovariance>) {
         (&self.pose, self.covariance.as_ref())

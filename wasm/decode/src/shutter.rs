@@ -28,6 +28,16 @@ impl Shutter {
         Self { shapes }
     }
 
+    /// The same for a frame in squares of `side` x `side` pixels of this one.
+    #[must_use]
+    pub fn reduced(&self, side: u32) -> Self {
+        let shapes = self
+            .shapes
+            .iter()
+            .map(|shape| shape.reduced(f64::from(side)));
+        Self::of(shapes.collect())
+    }
+
     /// The open pixels of a row of `width` pixels: ranges of columns from the left, none of them empty.
     #[must_use]
     pub fn open(&self, row: u32, width: u32) -> Vec<Range<u32>> {
@@ -101,6 +111,17 @@ impl Shutter {
 }
 
 impl Shape {
+    fn reduced(&self, factor: f64) -> Self {
+        match self {
+            Self::Rectangle(sides) => Self::Rectangle(sides.map(|side| side / factor)),
+            Self::Circle(circle) => Self::Circle(circle.map(|part| part / factor)),
+            Self::Polygon(corners) => {
+                let reduced = corners.iter().map(|corner| corner.map(|at| at / factor));
+                Self::Polygon(reduced.collect())
+            }
+        }
+    }
+
     /// The columns whose centres lie in the shape, of the row whose centres are at `y`.
     fn spans(&self, y: f64, width: u32) -> Vec<Range<u32>> {
         match self {

@@ -40,6 +40,26 @@ impl Covered {
         self.0.partition_point(|&end| end as usize <= number) % 2 == 1
     }
 
+    /// Of a frame in squares of `side` x `side` pixels, `size` of them: those of which a pixel is covered.
+    pub(crate) fn reduced(
+        &self,
+        (width, _): (usize, usize),
+        (columns, rows): (usize, usize),
+        side: usize,
+    ) -> Self {
+        let mut squares = vec![false; columns * rows];
+        for number in self.runs().flatten() {
+            let (column, row) = (number % width / side, number / width / side);
+            if column < columns && row < rows {
+                squares[row * columns + column] = true;
+            }
+        }
+        let is_covered = |number: usize| squares.get(number).copied().unwrap_or(false);
+        let begins = |&number: &usize| is_covered(number) != (number > 0 && is_covered(number - 1));
+        let ends = (0..=squares.len()).filter(begins);
+        Self(ends.map(|number| number as u32).collect())
+    }
+
     /// They are set in a mask of the frame's size.
     ///
     /// # Errors

@@ -221,6 +221,31 @@ impl FrameImage {
         }
     }
 
+    /// The frame in squares of `side` x `side` pixels (the core's `Frame::reduce`); a square of which a pixel is covered is.
+    ///
+    /// # Errors
+    /// The core's sentence where no square fits.
+    pub fn reduced(&self, side: usize) -> Result<Self, JsError> {
+        let whole = (self.width, self.height);
+        let (pixels, size) = match self.pixels() {
+            Pixels::Eight(pixels) => {
+                let (squares, size) = squares(pixels, whole, side)?;
+                (Pixels::Eight(squares), size)
+            }
+            Pixels::Sixteen(pixels) => {
+                let (squares, size) = squares(pixels, whole, side)?;
+                (Pixels::Sixteen(squares), size)
+            }
+        };
+        Ok(Self {
+            pixels: Rc::new(pixels),
+            covered: self.covered.reduced(whole, size, side),
+            width: size.0,
+            height: size.1,
+            derived: None,
+        })
+    }
+
     fn put(&self, context: &CanvasRenderingContext2d, shades: &[Rgba]) -> Result<(), JsValue> {
         let count = self.width * self.height;
         match self.pixels() {
@@ -306,6 +331,19 @@ impl FrameImage {
             }
         }
     }
+}
+
+/// Squares of pixels, row by row, and how many columns and rows of them there are.
+fn squares<P: Pixel>(
+    pixels: &[P],
+    (width, height): (usize, usize),
+    side: usize,
+) -> Result<(Vec<P>, (usize, usize)), JsError> {
+    let whole = Frame::new(pixels, width, height, width).map_err(sentence)?;
+    let size = whole.reduced_size(side);
+    let mut squares = vec![P::default(); size.0 * size.1];
+    whole.reduce(side, &mut squares).map_err(sentence)?;
+    Ok((squares, size))
 }
 
 fn check<P: Pixel>(pixels: &[P], width: u32, height: u32) -> Result<(), JsError> {
@@ -412,6 +450,23 @@ mod tests {
             .ok()
             .unwrap();
         assert!(std::ptr::eq(film.pixels(), film.shared().pixels()));
+    }
+
+    #[test]
+    fn squares_are_means_and_covered_where_a_pixel_is() {
+        let mut film = FrameImage::from_eight_bit((0..35).collect(), 7, 5)
+            .ok()
+            .unwrap();
+        assert!(film.cover(vec![1, 2, 20, 22]).is_ok());
+        let squares = film.reduced(2).ok().unwrap();
+        assert_eq!(squares.size(), (3, 2));
+        let Pixels::Eight(pixels) = squares.pixels() else {
+            panic!("bytes stay bytes")
+        };
+        assert_eq!(pixels[..], [4, 6, 8, 18, 20, 22]);
+        // Pixel 20 is beyond the last square of its row, pixel 21 in the row below.
+        assert_eq!(squares.covered(), [0, 1, 3, 4]);
+        assert!(film.reduced(8).is_err());
     }
 
     #[test]

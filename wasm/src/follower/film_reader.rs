@@ -19,11 +19,16 @@ pub struct FilmReader {
 
 #[wasm_bindgen]
 impl FilmReader {
-    /// Of a film of `frames`, all of the size that the calibration text is for. `component` is 0 for a femur, 1 for a tibia.
+    /// Of a film of `frames`, all of the size that the calibration text is for. `component` is 0 for a femur, 1 for a tibia; profiles are read in
+    /// squares with sides of `side` pixels (1: as they are).
     ///
     /// # Errors
     /// The core's sentence about the model or the calibration.
     #[wasm_bindgen(constructor)]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "they cross into JavaScript one by one"
+    )]
     pub fn new(
         vertices: Vec<f32>,
         triangles: Vec<u32>,
@@ -32,8 +37,9 @@ impl FilmReader {
         height: u32,
         frames: usize,
         component: u8,
+        side: usize,
     ) -> Result<FilmReader, JsError> {
-        let seen = Seen::new((vertices, triangles), calibration, (width, height))?;
+        let seen = Seen::new((vertices, triangles), calibration, (width, height), side)?;
         Ok(Self {
             reading: FilmReading::new(seen.middle(), frames, component),
             seen,

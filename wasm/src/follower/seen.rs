@@ -1,5 +1,6 @@
 //! A component that is looked at in frames of a film.
 
+use crate::squares::look_in_squares;
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
@@ -18,6 +19,8 @@ pub(super) struct Seen {
     model: OwnedModel,
     planes: Vec<SymmetryPlane>,
     camera: Camera,
+    /// Side of the squares that frames are looked at in, pixels.
+    square_px: usize,
     /// Whether the implant is dark, once a frame has told it.
     polarity: Option<Polarity>,
     buffers: RefineBuffers,
@@ -30,12 +33,14 @@ impl Seen {
         (vertices, triangles): (Vec<f32>, Vec<u32>),
         calibration: &str,
         (width, height): (u32, u32),
+        square_px: usize,
     ) -> Result<Self, JsError> {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         Ok(Self {
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
             model,
             camera: camera(calibration, width, height)?,
+            square_px,
             polarity: None,
             buffers: RefineBuffers::default(),
         })
@@ -62,12 +67,13 @@ impl Seen {
         work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>) -> T,
     ) -> Result<T, JsError> {
         let model = self.model.as_model();
-        let subject = Subject::new(&model, &self.planes, &self.camera);
-        let mut memory = self.buffers.borrow(&model, &self.camera);
-        let polarity = &mut self.polarity;
-        frame.look(|frame| {
+        let side = self.square_px;
+        look_in_squares(side, frame, &self.camera, None, |frame, camera, _| {
+            let subject = Subject::new(&model, &self.planes, camera);
+            let mut memory = self.buffers.borrow(&model, camera);
+            let polarity = &mut self.polarity;
             if let (None, Some(pose)) = (&polarity, given) {
-                let told = polarity_at(&model, &self.camera, pose, frame, &mut memory);
+                let told = polarity_at(&model, camera, pose, frame, &mut memory);
                 *polarity = Some(told.map_err(sentence)?);
             }
             let image = ImageTarget {

@@ -12,6 +12,7 @@ use wasm_bindgen::prelude::*;
 use super::Matcher;
 use crate::film::film_model;
 use crate::found::Uncertainty;
+use crate::squares::{look_in_squares, square_px};
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -267,21 +268,21 @@ pub(super) fn on_frame<T>(
     pose: &Pose,
     with: impl FnOnce(&mut WorkingModel, CameraView<'_>, bool) -> Result<T, JsError>,
 ) -> Result<T, JsError> {
-    let camera = hidden.camera;
-    let unknown = Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
-    frame.look(|frame| {
+    let (camera, unknown) = (&hidden.camera, Some(&*hidden.words));
+    let side = square_px(film.as_ref());
+    look_in_squares(side, frame, camera, unknown, |frame, camera, unknown| {
         let polarity = match bright {
             Some(is_bright) => Polarity::of(is_bright),
-            None => model.polarity(pose, &camera, frame)?,
+            None => model.polarity(pose, camera, frame)?,
         };
         let target = ImageTarget {
             frame,
-            unknown: Some(&unknown),
+            unknown,
             polarity,
             film,
         };
         let bright = polarity == Polarity::BrightImplant;
-        with(model, CameraView::only(&camera, target), bright)
+        with(model, CameraView::only(camera, target), bright)
     })
 }
 

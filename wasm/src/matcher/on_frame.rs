@@ -19,7 +19,7 @@ use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::exchange::simplified;
 use crate::film::film_model;
 use crate::found::{Candidate, Match};
-use crate::hidden::with_mask;
+use crate::squares::{look_in_squares, of_pixels, square_px};
 use crate::working_model::Assessed;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -57,17 +57,31 @@ impl Seen<'_> {
         &self,
         with: impl FnOnce(CameraView<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
-        self.frame.look(|frame| {
-            with_mask(self.unknown, self.camera, |unknown| {
+        let side = square_px(self.film.as_ref());
+        self.look_in(side, with)
+    }
+
+    /// The same in squares with sides of so many pixels.
+    fn look_in<T>(
+        &self,
+        side: usize,
+        with: impl FnOnce(CameraView<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        look_in_squares(
+            side,
+            self.frame,
+            self.camera,
+            self.unknown,
+            |frame, camera, unknown| {
                 let target = ImageTarget {
                     frame,
                     unknown,
                     polarity: self.polarity,
                     film: self.film,
                 };
-                with(CameraView::only(self.camera, target))
-            })
-        })
+                with(CameraView::only(camera, target))
+            },
+        )
     }
 }
 
@@ -83,8 +97,8 @@ pub(super) struct OnFrame {
 
 #[wasm_bindgen]
 impl Matcher {
-    /// Profiles of a frame across the model's outline at a pose (six numbers), as `FilmStudy` takes them. The pose need only be
-    /// near.
+    /// Profiles of a frame across the model's outline at a pose (six numbers), as `FilmStudy` takes them, in squares with sides of so many
+    /// pixels (1: as they are). The pose need only be near.
     ///
     /// # Errors
     /// The core's sentence about a pose at which the model cannot be drawn.
@@ -94,12 +108,15 @@ impl Matcher {
         frame: &FrameImage,
         hidden: &HiddenPixels,
         pose: &[f64],
+        side: usize,
     ) -> Result<Vec<f32>, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let seen = self.seen(frame, hidden, &pose, None)?;
         let mut profiles = vec![FilmProfile::default(); profiles_of_each(1)];
         let model = model_of(&mut self.model)?;
-        let read = seen.look(|view| model.film_profiles(&pose, &view, &mut profiles))?;
+        let read = seen.look_in(side, |view| {
+            model.film_profiles(&pose, &view, &mut profiles)
+        })?;
         let mut numbers = Vec::with_capacity(read * PROFILE_NUMBERS);
         profiles[..read]
             .iter()
@@ -184,6 +201,18 @@ impl Matcher {
             film,
             usual: None,
         })
+    }
+
+    /// Poses that were found in a frame's own pixels, as its film puts the edges where that is read in squares.
+    pub(super) fn in_squares(
+        &mut self,
+        found: Vec<OnFrame>,
+        seen: &Seen<'_>,
+    ) -> Result<Vec<OnFrame>, JsError> {
+        match of_pixels(seen.film) {
+            Some(_) => Ok(found),
+            None => self.corrected(&found, seen),
+        }
     }
 
     /// Poses that were refined on a frame as its film puts the edges, where that is known, and mirror images of the best.

@@ -26,6 +26,7 @@ use crate::film::film_model;
 use crate::found::Match;
 use crate::hidden::{hide, with_mask};
 use crate::shape::Shape;
+use crate::squares::of_pixels;
 use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -221,7 +222,7 @@ impl OneClick {
             let mut memory = self
                 .buffers
                 .borrow(&work.needs(&self.camera), workspace, refine);
-            let (camera, polarity) = (&self.camera, self.polarity);
+            let (camera, polarity, film) = (&self.camera, self.polarity, of_pixels(self.known));
             let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
             let more = self.film.look(|frame| {
                 with_mask(hidden, camera, |beside| {
@@ -233,7 +234,7 @@ impl OneClick {
                         // out where the film is known.
                         excluded: None,
                         beside,
-                        film: self.known,
+                        film,
                     };
                     work.step(&observation, Some(component), &mut memory)
                         .map_err(sentence)
@@ -296,8 +297,8 @@ impl OneClick {
         let strongest = answers.first().map_or(0.0, |best| best.score);
         let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
         let found = answers.iter().filter(rivals).map(OnFrame::from);
-        let mut answers: Vec<OnFrame> = self.given.iter().copied().chain(found).collect();
-        let seen = self.seen();
+        let (seen, found) = (self.seen(), self.given.iter().copied().chain(found));
+        let mut answers = matcher.in_squares(found.collect(), &seen)?;
         let among = |answers: &[OnFrame]| {
             let contenders: Vec<Contender> = answers.iter().map(contender).collect();
             Chosen::among(&contenders, around)

@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use super::Matcher;
 use super::from_here::{HiddenPixels, model_of, on_frame};
 use crate::film::film_model;
+use crate::squares::square_px;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::from_numbers;
 
@@ -64,7 +65,10 @@ impl Matcher {
         bright: Option<bool>,
     ) -> Result<EdgeReadings, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
-        let on = (film, film_model(known)?, bright);
+        let known = film_model(known)?;
+        // Places are told in pixels of the frame.
+        let side = square_px(known.as_ref()) as f64;
+        let on = (film, known, bright);
         let mut numbers = Vec::new();
         let fit = on_frame(
             model_of(&mut self.model)?,
@@ -72,14 +76,14 @@ impl Matcher {
             hidden,
             &pose,
             |model, view, _| {
-                model.outline_readings(&pose, view, |one| numbers.extend(numbers_of(one)))
+                model.outline_readings(&pose, view, |one| numbers.extend(numbers_of(one, side)))
             },
         )?;
         Ok(EdgeReadings { fit, numbers })
     }
 }
 
-fn numbers_of(one: &OutlineReading) -> [f32; 7] {
+fn numbers_of(one: &OutlineReading, side: f64) -> [f32; 7] {
     let beyond_px = match one.seen {
         NormalReading::At(px) => px,
         NormalReading::Nothing | NormalReading::Unknown => f64::NAN,
@@ -88,5 +92,7 @@ fn numbers_of(one: &OutlineReading) -> [f32; 7] {
         .is_met()
         .map_or(f64::NAN, |met| f64::from(u8::from(met)));
     let [right, down] = one.normal;
-    [one.column, one.row, right, down, one.length, beyond_px, met].map(|number| number as f32)
+    let [column, row, length, beyond_px] =
+        [one.column, one.row, one.length, beyond_px].map(|px| px * side);
+    [column, row, right, down, length, beyond_px, met].map(|number| number as f32)
 }

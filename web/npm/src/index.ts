@@ -88,7 +88,7 @@ export class Implant {
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
     try {
-      return withImage(image, this.#frame, (frame) => this.#matcher.filmProfiles(frame, hidden, numbers(pose)));
+      return withImage(image, this.#frame, (frame) => this.#matcher.filmProfiles(frame, hidden, numbers(pose), 1));
     } finally {
       hidden.free();
     }

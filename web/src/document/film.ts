@@ -7,6 +7,14 @@ import { DISPLAYS, type Doc, type Film, type FilmConstants, type FilmModel, type
 /** Curvature, blur and attenuation: with what a pose was found. */
 export const CONSTANTS = 3;
 
+/** Behind all other numbers of a film. */
+const SQUARE = 16;
+
+/** Side of the squares of pixels that what is known of a film was read in. */
+export function squareOf(known: readonly number[] | null): number {
+  return known?.[SQUARE] ?? 1;
+}
+
 /** What the film makes of a component as its model is now. */
 export function filmNumbers({ film, components }: Doc, component: ComponentName): readonly number[] | null {
   const known = film.known?.models[component];

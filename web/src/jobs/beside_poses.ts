@@ -1,3 +1,4 @@
+import { filmNumbers, squareOf } from '../document/film';
 import type { Doc } from '../document/types';
 import { cameraOf } from '../results/keys';
 import type { Given } from '../results/spans';
@@ -24,7 +25,7 @@ const POSES = 3;
 const BESIDE = 6;
 
 /** Reads the film around the first poses of each component, in all workers at once; gives nothing where it was called off. */
-export async function readBeside(services: Services, subjects: readonly Subject[], abort: AbortController): Promise<ReadonlyMap<ComponentName, Beside>> {
+export async function readBeside(services: Services, subjects: readonly Subject[], side: number, abort: AbortController): Promise<ReadonlyMap<ComponentName, Beside>> {
   const { store } = services;
   const last = store.doc.frames.length - 1;
   const around = ({ frame }: Given) => Math.min(frame + BESIDE, last) - Math.max(frame - BESIDE, 0) + 1;
@@ -32,18 +33,31 @@ export async function readBeside(services: Services, subjects: readonly Subject[
   const job = { title: texts.follow.reading, unit: texts.follow.unit, total, cancel: () => abort.abort() };
   const read = await asJob(store, job, (report) => {
     const looked = counting(report, total);
-    return Promise.all(subjects.map(async (subject) => [subject.component, await besideOf(services, subject, abort.signal, looked)] as const));
+    return Promise.all(subjects.map(async (subject) => [subject.component, await besideOf(services, subject, side, abort.signal, looked)] as const));
   });
   return new Map(abort.signal.aborted ? [] : read);
 }
 
-async function besideOf(services: Services, subject: Subject, signal: AbortSignal, looked: () => void): Promise<Beside> {
+async function besideOf(services: Services, subject: Subject, side: number, signal: AbortSignal, looked: () => void): Promise<Beside> {
   const { component, worker, span } = subject;
   const { doc } = services.store;
   const { model, ...input } = subjectOf(services, component);
   const given = span.given.slice(0, POSES);
-  const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, given });
+  const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, side, given, justThere: false });
   return { model, anchors: anchorsOf(doc, given), read: await profilesFrom(services, subject, first, signal, looked) };
+}
+
+/** Reads the film at the first pose of each component, in squares with sides of so many pixels. */
+export async function readFirst(services: Services, subjects: readonly Subject[], side: number, signal: AbortSignal): Promise<readonly ReadProfiles[]> {
+  const { doc } = services.store;
+  const each = subjects.map(async (subject) => {
+    const { component, worker, span } = subject;
+    const { model: _, ...input } = subjectOf(services, component);
+    const given = span.given.slice(0, 1);
+    const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, side, given, justThere: true });
+    return profilesFrom(services, subject, first, signal, () => undefined);
+  });
+  return (await Promise.all(each)).flat();
 }
 
 /** Reads the film in frames in which a followed component is good, as its worker chooses them; null where these are too few. */
@@ -51,7 +65,7 @@ export async function readAsked(services: Services, subject: Subject, otherMiddl
   const { component, worker, span } = subject;
   const { doc } = services.store;
   const { model, ...input } = subjectOf(services, component);
-  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, otherMiddles });
+  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, side: squareOf(filmNumbers(doc, component)), otherMiddles });
   if (first === null) return null;
   const read = await profilesFrom(services, subject, first, signal, () => undefined);
   return { model, anchors: anchorsOf(doc, span.given.slice(0, POSES)), read };

@@ -68,6 +68,12 @@ export class ReadBeside {
     return read ?? { component, frame, profiles: new Float32Array() };
   }
 
+  /** What was read in other squares is of no use. */
+  clear(): void {
+    this.#known.clear();
+    this.#gone = [];
+  }
+
   /** What the worker knew may be gone with it. */
   forgotten(): void {
     for (const entry of this.#known.values()) entry.isTaken = false;

@@ -1,6 +1,7 @@
 import { work } from '../workers/activity';
 import type { ComponentName } from '../terms/component';
 import type { Beside } from './film_beside';
+import type { ReadProfiles } from '../workers/protocol/film';
 import type { FilmReader } from './film_reader';
 import type { Services } from './services';
 
@@ -25,6 +26,10 @@ export class FilmLater {
 
   async knowsBeside(component: ComponentName): Promise<boolean> {
     return (await this.#load())?.knowsBeside(component) ?? false;
+  }
+
+  async chooseSquares(read: (side: number) => Promise<readonly ReadProfiles[]>): Promise<number> {
+    return (await (await this.#load())?.chooseSquares(read)) ?? 1;
   }
 
   async takeBeside(component: ComponentName, beside: Beside): Promise<void> {

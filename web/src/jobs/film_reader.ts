@@ -1,6 +1,6 @@
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
-import { CONSTANTS, filmNumbers, withKnownFilm } from '../document/film';
+import { CONSTANTS, filmNumbers, squareOf, withKnownFilm } from '../document/film';
 import { isSilhouette } from '../document/laid_by';
 import { itsOutline, setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
@@ -45,6 +45,8 @@ export class FilmReader {
   /** The worker has profiles of them, of a work that is shown no more. */
   readonly #left = new Map<string, Witness>();
   readonly #beside = new ReadBeside();
+  /** Of the squares that profiles are read in, pixels. */
+  #side = 1;
   /** What the page worked out itself, or adopted. */
   readonly #taken = new WeakSet<KnownFilm>();
   /** They cannot be corrected. */
@@ -81,6 +83,29 @@ export class FilmReader {
     return this.#beside.has(component);
   }
 
+  /** The side of the squares of pixels that the film is read in from now on, by what `read` reads in those that are tried. */
+  async chooseSquares(read: (side: number) => Promise<readonly ReadProfiles[]>): Promise<number> {
+    const { stated } = this.#services.store.doc.film;
+    let { wanted, side } = await this.#films.call('beginSquares', { stated });
+    while (wanted !== null) ({ wanted, side } = await this.#films.call('takeSquares', { read: await read(wanted), stated }));
+    if (side !== this.#side) this.#readAnew(side);
+    return side;
+  }
+
+  #inSquaresOf({ models: { femur, tibia } }: KnownFilm): void {
+    const side = squareOf((femur ?? tibia)?.numbers ?? null);
+    if (side !== this.#side) this.#readAnew(side);
+  }
+
+  /** What was read in other squares is of no use. */
+  #readAnew(side: number): void {
+    this.#side = side;
+    this.#asked = null;
+    this.#left.clear();
+    this.#beside.clear();
+    for (const [key, { witness }] of this.#entries) this.#entries.set(key, { witness, isRead: false });
+  }
+
   takeBeside(component: ComponentName, beside: Beside): void {
     this.#beside.set(component, beside);
     this.#consider();
@@ -100,7 +125,7 @@ export class FilmReader {
       const facts = followed && (await this.#films.call('learntAgain', { followed, stated }));
       if (!facts || signal.aborted) return false;
       for (const [component, beside] of asked) this.#beside.set(component, beside);
-      await this.#films.call('take', { read: this.#beside.handOver((...at) => this.#isReadItself(...at)) });
+      await this.#films.call('take', { read: this.#beside.handOver((...at) => this.#isReadItself(...at)), side: this.#side });
       const known = this.#knownFrom(facts);
       this.#taken.add(known);
       this.#last = known;
@@ -147,6 +172,7 @@ export class FilmReader {
     const { known, stated } = store.doc.film;
     if (known && !this.#taken.has(known)) {
       this.#taken.add(known);
+      this.#inSquaresOf(known);
       this.#last = known;
       this.#asked = JSON.stringify(known.stated);
       this.#leave();
@@ -155,6 +181,7 @@ export class FilmReader {
       return false;
     }
     if (known && this.#isBack(known)) {
+      this.#inSquaresOf(known);
       this.#last = known;
       this.#asked = JSON.stringify(known.stated);
       this.#backTo(this.#witnesses(() => true));
@@ -318,7 +345,7 @@ export class FilmReader {
       read.push({ ...namesOf(witness), profiles: await this.#profilesOf(witness) });
     }
     try {
-      const facts = await this.#films.call('estimate', { read, stated });
+      const facts = await this.#films.call('estimate', { read, stated, side: this.#side });
       this.#take(facts && this.#knownFrom(facts));
     } catch (error) {
       // What the worker knew may be gone with it.
@@ -332,7 +359,7 @@ export class FilmReader {
   async #profilesOf({ component, frameId, pose }: Witness): Promise<Float32Array<ArrayBuffer>> {
     try {
       const input = await onFrameInput(this.#services, { component, frameId });
-      return await this.#poses.call('filmProfiles', { ...input, pose }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
+      return await this.#poses.call('filmProfiles', { ...input, pose, side: this.#side }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
     } catch (error) {
       if (error instanceof Aborted) throw error;
       return new Float32Array();

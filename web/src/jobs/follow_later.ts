@@ -12,7 +12,7 @@ export class FollowLater {
   readonly #make: () => Promise<Follower>;
   #made: Promise<Follower> | null = null;
 
-  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks, film: Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>) {
+  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks, film: Pick<FilmLater, 'ready' | 'chooseSquares' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>) {
     this.#make = async () => {
       const [{ Follower }, { FirstPoses }] = await Promise.all([import('./follower'), import('./first_poses')]);
       const workers = { femur: followWorker(), tibia: followWorker() };

@@ -9,7 +9,7 @@ import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { FollowProtocol } from '../workers/protocol/follow';
-import { aborted, readAsked, readBeside } from './beside_poses';
+import { aborted, readAsked, readBeside, readFirst } from './beside_poses';
 import type { Beside } from './film_beside';
 import type { FilmLater } from './film_later';
 import { type Before, FilmPass, type Part } from './film_pass';
@@ -19,7 +19,7 @@ import { asJob, type Report, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
 
-type Film = Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>;
+type Film = Pick<FilmLater, 'ready' | 'chooseSquares' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>;
 
 /**
  * Follows the components through the film from the frames that a person set, in a worker each, while the person goes on working.
@@ -76,17 +76,22 @@ export class Follower {
   async #readFilm(abort: AbortController): Promise<void> {
     const { doc } = this.#services.store;
     if (doc.film.stated.constants) return;
-    const lacking: Part[] = [];
-    for (const part of this.#parts(doc)) {
-      const { free, given, isDoubtful } = part.span;
-      const isAnew = free + given.length === doc.frames.length || filmNumbers(doc, part.component) === null;
-      if (isAnew && !isDoubtful && !(await this.#film.knowsBeside(part.component))) lacking.push(part);
-    }
-    if (lacking.length === 0) return;
-    const read = await readBeside(this.#services, lacking, abort);
+    const isToRead = ({ component, span: { free, given, isDoubtful } }: Part) =>
+      !isDoubtful && (free + given.length === doc.frames.length || filmNumbers(doc, component) === null);
+    const parts = this.#parts(doc).filter(isToRead);
+    if ((await this.#lacking(parts)).length === 0) return;
+    const side = await this.#film.chooseSquares((tried) => readFirst(this.#services, parts, tried, abort.signal));
+    // In other squares than before nothing is read yet.
+    const read = await readBeside(this.#services, await this.#lacking(parts), side, abort);
     if (read.size === 0) return;
     for (const [component, beside] of read) await this.#film.takeBeside(component, beside);
     await this.#filmReady(abort);
+  }
+
+  /** Those beside whose poses the film was not read. */
+  async #lacking(parts: readonly Part[]): Promise<readonly Part[]> {
+    const known = await Promise.all(parts.map(({ component }) => this.#film.knowsBeside(component)));
+    return parts.filter((_, at) => !known[at]);
   }
 
   /** When the film has told what it tells, and the poses that lead are corrected by that. */

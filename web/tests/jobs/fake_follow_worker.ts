@@ -18,6 +18,7 @@ export function worker(missing: readonly number[]) {
   let seen: number[] = [];
   let compared: readonly number[] = [];
   let toRead: number[] = [];
+  const read: FilmReading[] = [];
   const rest = () => {
     const { first, last, given } = input!;
     const isOpen = (frame: number) => !seen.includes(frame) && !given.some((one) => one.frame === frame);
@@ -42,8 +43,8 @@ export function worker(missing: readonly number[]) {
       seen.push(frame);
       return { pose: poseOf(10 + frame), isBeside: false, next: rest() };
     },
-    readFilm: ({ given }: FilmReading) => {
-      toRead = [given[0]!.frame, given[0]!.frame + 1].filter((frame) => frame < FRAMES);
+    readFilm: (asked: FilmReading) => {
+      [toRead] = [framesOf(asked), read.push(asked)];
       return toRead[0]!;
     },
     lookFilm: () => {
@@ -79,5 +80,10 @@ export function worker(missing: readonly number[]) {
     return answer;
   };
   const dispose = () => void asked.push('let go');
-  return { begun, beside, asked, call, isGoodInFew: () => void (isGoodInFew = true), lose: (frame: number) => void (lost = frame), dispose, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+  return { begun, beside, asked, read, call, isGoodInFew: () => void (isGoodInFew = true), lose: (frame: number) => void (lost = frame), dispose, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+}
+
+function framesOf({ given: [first], justThere }: FilmReading): number[] {
+  const frames = justThere ? [first!.frame] : [first!.frame, first!.frame + 1];
+  return frames.filter((frame) => frame < FRAMES);
 }

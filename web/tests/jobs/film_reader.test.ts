@@ -11,7 +11,7 @@ import type { Beside } from '../../src/jobs/film_beside';
 import { FILM_REST, FilmReader } from '../../src/jobs/film_reader';
 import { poseKey } from '../../src/results/keys';
 import type { OnFrame } from '../../src/workers/protocol/by_hand';
-import type { FilmFacts, FilmProtocol } from '../../src/workers/protocol/film';
+import type { FilmFacts, FilmProtocol, SquaresState } from '../../src/workers/protocol/film';
 
 const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [], laidBy: 'click' };
 const GOOD = { word: 'good', because: 'it fits' } as const;
@@ -27,9 +27,14 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   const hidden: (readonly number[] | null)[] = [];
   /** Where each correction began, mm. */
   const starts: number[] = [];
-  const poses = async (method: string, input: { component: string; unknown: OnFrame['unknown']; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
+  /** Of the squares that each witness was read in. */
+  const sides: (number | undefined)[] = [];
+  const poses = async (method: string, input: { component: string; side?: number; unknown: OnFrame['unknown']; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
     hidden.push(input.unknown && Array.from(input.unknown.unknownSides));
-    if (method === 'filmProfiles') return new Float32Array(128);
+    if (method === 'filmProfiles') {
+      sides.push(input.side);
+      return new Float32Array(128);
+    }
     corrected.push(input.component);
     starts.push(input.candidates[0]!.pose.z);
     const z = depths.length > 1 ? depths.shift()! : depths[0]!;
@@ -43,7 +48,9 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
       outline: Float64Array.of(2, 2, 6, 2, 4, 7),
     }));
   };
-  const films = async (_: string, input: Estimate): Promise<FilmFacts | null> => {
+  const films = async (method: string, input: Estimate): Promise<FilmFacts | SquaresState | null> => {
+    if (method === 'beginSquares') return { wanted: 2, side: 1 };
+    if (method === 'takeSquares') return { wanted: null, side: 2 };
     asked.push(input);
     const curvature = curvatures.length > 1 ? curvatures.shift() : curvatures[0];
     const numbers = curvature == null ? null : [curvature, 0.8, 0.7, 1e-8, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
@@ -58,7 +65,7 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
     store.perform(setModel(component, { name: component, sha256: component }));
     store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
   }
-  return { store, reader, asked, corrected, hidden, starts, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
+  return { store, reader, asked, corrected, hidden, starts, sides, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
 }
 
 /** A pose as a click finds it. */
@@ -86,6 +93,38 @@ const sizes = ({ read }: Estimate) => read.map(({ frame, profiles }) => [frame, 
 
 /** The names of the components and frames whose profiles the worker was given, call by call. */
 const handed = (asked: readonly Estimate[]) => asked.map(({ read }) => read?.map(({ component, frame, profiles }) => `${component} ${frame}: ${profiles.length}`));
+
+describe('squares that a film is read in', () => {
+  it('are those of all that is read from then on, and of what was read before', async () => {
+    const { store, reader, asked, sides } = bench([0.026, 0.03]);
+    store.perform(clicked(store.doc));
+    await rest();
+    expect(sides).toEqual([1]);
+    const read: number[] = [];
+    const side = await reader.chooseSquares(async (tried) => (read.push(tried), BESIDE.read));
+    expect([side, read]).toEqual([2, [2]]);
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    expect(new Set(sides.slice(1))).toEqual(new Set([2]));
+    expect(asked.at(-1)).toMatchObject({ side: 2 });
+  });
+
+  it('are those of a film that a session brings', async () => {
+    const { store, reader, asked, sides } = bench([0.026]);
+    store.perform(clicked(store.doc));
+    await rest();
+    const known = store.doc.film.known!;
+    const numbers = [...known.models.femur!.numbers, 0, 0, 0, 0, 2];
+    const brought = { ...known, models: { ...known.models, femur: { of: 'femur', numbers } } };
+    store.amend((doc) => ({ ...doc, film: { ...doc.film, known: brought } }));
+    asked.length = sides.length = 0;
+    store.perform(clicked(store.doc, 'b'));
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    expect(new Set(sides)).toEqual(new Set([2]));
+    expect(asked.at(-1)).toMatchObject({ side: 2 });
+  });
+});
 
 describe('what a followed film tells of its constants', () => {
   /** A femur that was clicked in frame a, what was read beside it, and the constants by that. */

@@ -14,6 +14,7 @@ import { standingOf } from '../../src/results/steps';
 import { Follower } from '../../src/jobs/follower';
 import type { Beside } from '../../src/jobs/film_beside';
 import type { ComponentName } from '../../src/terms/component';
+import type { ReadProfiles } from '../../src/workers/protocol/film';
 import { FRAMES, MOVED, poseOf, worker } from './fake_follow_worker';
 
 const place = (frame: number) => ({ frameId: `f${frame}`, component: 'femur' as const });
@@ -42,8 +43,13 @@ function bench(missing: readonly number[] = []) {
   };
   const discoveries: { femur?: number; tibia?: number } = {};
   const taken: [ComponentName, Beside][] = [];
+  const tried: (readonly ReadProfiles[])[] = [];
   const film = {
     ready: async () => undefined,
+    chooseSquares: async (read: (side: number) => Promise<readonly ReadProfiles[]>) => {
+      tried.push(await read(2));
+      return 2;
+    },
     knowsBeside: async (component: ComponentName) => taken.some(([of]) => of === component),
     takeBeside: async (...beside: [ComponentName, Beside]) => void taken.push(beside),
     learnAgain: async (read: ReadonlyMap<ComponentName, Beside>) => {
@@ -56,7 +62,7 @@ function bench(missing: readonly number[] = []) {
   const news: (() => boolean)[] = [];
   const follower = new Follower({ store, studio } as never, workers as never, first, film);
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, taken, compared, news };
+  return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, taken, compared, news, tried };
 }
 
 /** A doubtful pose that a click led to. */
@@ -101,6 +107,17 @@ describe('following', () => {
     store.perform(setPoseByHand(place(4), poseOf(4)));
     await follower.follow();
     expect(taken).toHaveLength(1);
+  });
+
+  it('reads the first pose alone in squares that are tried, and the film in those that are chosen', async () => {
+    const { store, follower, femur, tried } = bench();
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    await follower.follow();
+    expect(tried).toMatchObject([[{ component: 'femur', frame: 1 }]]);
+    expect(femur.read).toMatchObject([
+      { side: 2, justThere: true, given: [{ frame: 1 }] },
+      { side: 2, justThere: false, given: [{ frame: 1 }] },
+    ]);
   });
 
   it('reads nothing beside poses that are doubtful, or where the film is stated', async () => {

@@ -158,6 +158,7 @@ fn the_constants_of_a_logarithmic_film_are_found() {
         curvature,
         blur_px,
         sharpening,
+        ..
     } = film.constants;
     assert_eq!(sharpening, Sharpening::default(), "nobody enhanced edges");
     assert_eq!(film.display, DisplayKnowledge::Told);
@@ -179,6 +180,7 @@ fn the_constants_of_a_linear_film_are_found() {
         curvature,
         blur_px,
         sharpening,
+        ..
     } = film.constants;
     assert_eq!(sharpening, Sharpening::default(), "nobody enhanced edges");
     assert!(curvature.abs() < 0.001, "{curvature}");

@@ -1,24 +1,26 @@
-import { type FilmFacts as RawFacts, FilmStudy, statedFilmWords } from '../../pkg/core/fluoropose_wasm.js';
+import { type FilmFacts as RawFacts, FilmSquares, FilmStudy, statedFilmWords } from '../../pkg/core/fluoropose_wasm.js';
 import type { FilmConstants } from '../../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
-import type { FilmFacts, FilmProtocol, ReadProfiles } from '../protocol/film';
+import { squareOf } from '../../document/film';
+import type { FilmFacts, FilmProtocol, ReadProfiles, SquaresState } from '../protocol/film';
 import { loadCore } from './core_module';
 import { serve } from './serve';
 
 /** Keeps the profiles of a study's frames and estimates its film from them, beside the worker that finds poses: nobody waits. */
 const ready = loadCore();
-let study: FilmStudy | null = null;
+let study: { readonly side: number; readonly film: FilmStudy } | null = null;
+let squares: FilmSquares | null = null;
 
 serve<FilmProtocol>({
-  estimate: async ({ read, stated }) => {
+  estimate: async ({ read, stated, side }) => {
     await ready;
     if (stated.constants) return asStated(stated.constants);
-    const kept = takeAll(read);
+    const kept = takeAll(read, side);
     return told(kept.estimate(stated.display ?? undefined, stated.blur ?? undefined), COMPONENT_NAMES);
   },
   learntAgain: async ({ followed, stated }) => {
     await ready;
-    const asked = new FilmStudy();
+    const asked = FilmStudy.inSquares(squareOf(followed[0]?.known ?? null));
     // Of these frames alone, by the places of their components here.
     followed.forEach(({ known, read }, place) => {
       asked.know(Float64Array.from(known));
@@ -28,17 +30,40 @@ serve<FilmProtocol>({
     asked.free();
     return told(facts, followed.map(({ component }) => component));
   },
-  take: async ({ read }) => {
+  beginSquares: async ({ stated }) => {
     await ready;
-    takeAll(read);
+    squares?.free();
+    squares = new FilmSquares(stated.blur !== null || stated.constants !== null);
+    return stateOf(squares);
+  },
+  takeSquares: async ({ read, stated }) => {
+    await ready;
+    if (!squares) throw new Error('no squares are looked for');
+    const tried = FilmStudy.inSquares(squares.wanted ?? squares.side);
+    for (const { component, frame, profiles } of read) tried.take(COMPONENT_NAMES.indexOf(component), frame, profiles);
+    squares.take(tried.estimate(stated.display ?? undefined, undefined));
+    tried.free();
+    return stateOf(squares);
+  },
+  take: async ({ read, side }) => {
+    await ready;
+    takeAll(read, side);
     return null;
   },
 });
 
-function takeAll(read: readonly ReadProfiles[]): FilmStudy {
-  study ??= new FilmStudy();
-  for (const { component, frame, profiles } of read) study.take(COMPONENT_NAMES.indexOf(component), frame, profiles);
-  return study;
+function stateOf({ wanted, side }: FilmSquares): SquaresState {
+  return { wanted: wanted ?? null, side };
+}
+
+function takeAll(read: readonly ReadProfiles[], side: number): FilmStudy {
+  if (study?.side !== side) {
+    study?.film.free();
+    study = { side, film: FilmStudy.inSquares(side) };
+  }
+  const { film } = study;
+  for (const { component, frame, profiles } of read) film.take(COMPONENT_NAMES.indexOf(component), frame, profiles);
+  return film;
 }
 
 /** `components`: by their numbers in what was estimated. */

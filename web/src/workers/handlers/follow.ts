@@ -21,9 +21,15 @@ const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 
 serve<FollowProtocol>({
   ...firstPoses(ready, searcher),
-  readFilm: async ({ given, ...film }) => {
+  readFilm: async ({ given, justThere, ...film }) => {
     await ready;
-    return read(film, (begun) => given.forEach(({ frame, pose }) => begun.give(frame, Float64Array.from(poseArray(pose)))));
+    return read(film, (begun) => {
+      for (const { frame, pose } of given) {
+        const numbers = Float64Array.from(poseArray(pose));
+        if (justThere) begun.ask(frame, numbers);
+        else begun.give(frame, numbers);
+      }
+    });
   },
   askFilm: ({ otherMiddles, ...film }) => {
     const asked = rowsOf(working().toAsk(otherMiddles), 7);
@@ -131,10 +137,10 @@ function rowsOf(numbers: Float64Array, count: number): readonly (readonly number
 }
 
 /** Begins to read profiles of the film; gives the first frame that is wanted. */
-function read({ mesh, camera: { text, width, height }, component, frames }: Omit<FilmReading, 'given'>, ask: (begun: FilmReader) => void): number | null {
+function read({ mesh, camera: { text, width, height }, component, frames, side }: Omit<FilmReading, 'given' | 'justThere'>, ask: (begun: FilmReader) => void): number | null {
   reader?.free();
   reader = null;
-  const begun = new FilmReader(mesh.vertices, mesh.triangles, text, width, height, frames, COMPONENT_NAMES.indexOf(component));
+  const begun = new FilmReader(mesh.vertices, mesh.triangles, text, width, height, frames, COMPONENT_NAMES.indexOf(component), side);
   ask(begun);
   reader = begun;
   return begun.wanted() ?? null;

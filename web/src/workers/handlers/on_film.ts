@@ -13,8 +13,8 @@ export interface Held {
 
 export function onFilm({ matcherOf, read }: Held): Handlers<OnFilmProtocol> {
   return {
-    filmProfiles: ({ pose, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => matcher.filmProfiles(image, hidden, Float64Array.from(poseArray(pose))) as Float32Array<ArrayBuffer>),
+    filmProfiles: ({ pose, side, ...input }) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) => matcher.filmProfiles(image, hidden, Float64Array.from(poseArray(pose)), side) as Float32Array<ArrayBuffer>),
     correct: (input) =>
       onFrame(matcherOf, input, (matcher, image, hidden) => {
         try {

@@ -6,7 +6,7 @@ import type { OnFrame } from './by_hand';
 /** What the pose worker does with a frame whose film is estimated, or known. */
 export interface OnFilmProtocol {
   /** Profiles across the model's outline, as the film worker takes them. */
-  filmProfiles: { input: OnFrame & { readonly pose: PoseNumbers }; output: Float32Array<ArrayBuffer>; progress: never };
+  filmProfiles: { input: OnFrame & { readonly pose: PoseNumbers; readonly side: number }; output: Float32Array<ArrayBuffer>; progress: never };
   /** Poses that were found on the frame, as its film puts the edges, and others that explain it as well. */
   correct: {
     input: OnFrame & {
@@ -61,13 +61,17 @@ export interface FilmFacts {
   readonly models: Readonly<Record<ComponentName, readonly number[] | null>>;
 }
 
-/** The film worker keeps the profiles of all frames; null where they do not tell. What is stated in whole is taken as it is. */
+/** The film worker keeps the profiles of all frames, read in squares of one size: others are kept anew; null where they do not tell. What is stated in whole is taken as it is. */
 export interface FilmProtocol {
   estimate: {
-    input: { readonly read: readonly ReadProfiles[]; readonly stated: StatedFilm };
+    input: { readonly read: readonly ReadProfiles[]; readonly stated: StatedFilm; readonly side: number };
     output: FilmFacts | null;
     progress: never;
   };
+  /** Begins to find the squares of pixels that the film is read in. */
+  beginSquares: { input: { readonly stated: StatedFilm }; output: SquaresState; progress: never };
+  /** Takes what was read in those that are wanted. */
+  takeSquares: { input: { readonly read: readonly ReadProfiles[]; readonly stated: StatedFilm }; output: SquaresState; progress: never };
   /** The constants by frames that were followed, where those that the film was followed with do not stand; null where they do. */
   learntAgain: {
     input: { readonly followed: readonly FollowedProfiles[]; readonly stated: StatedFilm };
@@ -75,7 +79,13 @@ export interface FilmProtocol {
     progress: never;
   };
   /** Keeps profiles for the next estimate. */
-  take: { input: { readonly read: readonly ReadProfiles[] }; output: null; progress: never };
+  take: { input: { readonly read: readonly ReadProfiles[]; readonly side: number }; output: null; progress: never };
+}
+
+/** The squares to read profiles in next, null where they are found; and those that are well so far. Sides, pixels. */
+export interface SquaresState {
+  readonly wanted: number | null;
+  readonly side: number;
 }
 
 /** What was read of a component that was followed with what was `known` of the film. */

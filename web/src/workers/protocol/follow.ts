@@ -53,10 +53,14 @@ interface FilmSubject {
   readonly camera: CameraInput;
   readonly frames: number;
   readonly component: ComponentName;
+  /** Side of the squares that the film is read in, pixels. */
+  readonly side: number;
 }
 
 export interface FilmReading extends FilmSubject {
   readonly given: FollowInput['given'];
+  /** At the poses as they are, and in no frame beside them. */
+  readonly justThere: boolean;
 }
 
 export interface FilmAsked extends FilmSubject {

@@ -10,6 +10,7 @@ use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
+use super::frames::reduced;
 use super::listing::{files_in, gaps_in};
 use super::text::{name_of, read};
 
@@ -33,6 +34,8 @@ pub struct Film {
     prints: Vec<u64>,
     /// Where files state another order than their names have: the first file that stands elsewhere by that, and the one that would stand there.
     out_of_order: Option<[usize; 2]>,
+    /// Side of the squares that frames are handed out in, pixels of the files.
+    square_px: usize,
     decoded: Mutex<VecDeque<(usize, Slot)>>,
     opened: Mutex<Option<(usize, Arc<FrameFile<'static>>)>>,
 }
@@ -72,6 +75,7 @@ impl Film {
             digest: whole.finalize().into(),
             prints,
             out_of_order: out_of_order(&numbers),
+            square_px: 1,
             decoded: Mutex::default(),
             opened: Mutex::default(),
         };
@@ -82,6 +86,27 @@ impl Film {
             eprintln!("{}: {note}", folder.display());
         }
         Ok(film)
+    }
+
+    /// The same film in squares of `side` x `side` pixels ([`reduced`]).
+    pub fn in_squares(&self, side: usize) -> Self {
+        let (width, height) = self.size;
+        Self {
+            paths: self.paths.clone(),
+            places: self.places.clone(),
+            size: (width / side, height / side),
+            digest: self.digest,
+            prints: self.prints.clone(),
+            out_of_order: self.out_of_order,
+            square_px: side,
+            decoded: Mutex::default(),
+            opened: Mutex::default(),
+        }
+    }
+
+    /// Side of the squares that frames are handed out in, pixels of the files.
+    pub fn square_px(&self) -> usize {
+        self.square_px
     }
 
     /// Refuses frames that are not of the first one's size: neither a camera nor a component's way is known between them.
@@ -198,6 +223,10 @@ impl Film {
         let decoded = match count {
             1 => open(&self.paths[file])?.frame(0)?,
             _ => self.opened(file)?.frame(index)?,
+        };
+        let decoded = match self.square_px {
+            1 => decoded,
+            side => reduced(&decoded, side)?,
         };
         let found = (decoded.width as usize, decoded.height as usize);
         if self.size != (0, 0) && found != self.size {

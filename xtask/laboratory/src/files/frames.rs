@@ -9,7 +9,7 @@ use fluoropose::image::frame::{Frame, Pixel};
 use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::image::shuttered::Shuttered;
-use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
+use fluoropose_decode::{FrameFile, Geometry, GreyFrame, Pixels};
 
 use super::listing::files_in;
 use super::text::{name_of, read};
@@ -133,6 +133,45 @@ pub fn grey(frame: &GreyFrame) -> Result<Box<dyn Grey + '_>> {
     Ok(match &frame.pixels {
         Pixels::U8(pixels) => shuttered(Frame::new(pixels, width, height, width)?, frame)?,
         Pixels::U16(pixels) => shuttered(Frame::new(pixels, width, height, width)?, frame)?,
+    })
+}
+
+/// A decoded frame in squares of `side` x `side` pixels ([`Frame::reduce`]). Geometry, which is of the file's pixels, stays behind.
+///
+/// # Errors
+/// For a frame without pixels, or smaller than a square.
+pub(super) fn reduced(frame: &GreyFrame, side: usize) -> Result<GreyFrame> {
+    fn squares<P: Pixel>(
+        pixels: &[P],
+        frame: &GreyFrame,
+        side: usize,
+    ) -> Result<(Vec<P>, (usize, usize))> {
+        let (width, height) = (frame.width as usize, frame.height as usize);
+        let whole = Frame::new(pixels, width, height, width)?;
+        let size = whole.reduced_size(side);
+        let mut squares = vec![P::default(); size.0 * size.1];
+        whole.reduce(side, &mut squares)?;
+        Ok((squares, size))
+    }
+    let (pixels, (width, height)) = match &frame.pixels {
+        Pixels::U8(pixels) => {
+            let (squares, size) = squares(pixels, frame, side)?;
+            (Pixels::U8(squares), size)
+        }
+        Pixels::U16(pixels) => {
+            let (squares, size) = squares(pixels, frame, side)?;
+            (Pixels::U16(squares), size)
+        }
+    };
+    Ok(GreyFrame {
+        width: width as u32,
+        height: height as u32,
+        pixels,
+        bits: frame.bits,
+        window: frame.window,
+        geometry: Geometry::default(),
+        shutter: frame.shutter.as_ref().map(|one| one.reduced(side as u32)),
+        notes: Vec::new(),
     })
 }
 

@@ -15,6 +15,7 @@ mod request;
 mod run;
 mod search;
 mod sides;
+mod squares;
 mod table;
 
 use std::path::PathBuf;

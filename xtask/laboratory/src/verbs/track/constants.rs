@@ -38,7 +38,7 @@ pub(super) fn learn_film(
             .map(|(part, anchors)| profiles(run, part, anchors))
             .collect::<Result<_>>()?;
         run.say("film: its constants are estimated".to_owned());
-        let found = pooled(read).estimate(given);
+        let found = pooled(run.film.square_px(), read).estimate(given);
         if let Some(found) = &found {
             run.say(format!("film: {found}"));
         }
@@ -93,18 +93,31 @@ fn pool_of(run: &Run<'_>, parts: &[Part<'_>], asked: &[Vec<(usize, Pose)>]) -> R
     };
     let each = parts.par_iter().zip(asked).take(MOST_COMPONENTS);
     let read: Vec<_> = each.map(of_part).collect::<Result<_>>()?;
-    Ok(pooled(read))
+    Ok(pooled(run.film.square_px(), read))
 }
 
-/// Profiles of frames by the numbers of their components.
-fn pooled(read: Vec<Vec<(usize, Vec<FilmProfile>)>>) -> FilmPool {
-    let mut pool = FilmPool::default();
+/// Profiles of frames by the numbers of their components, read in squares.
+pub(super) fn pooled(square_px: usize, read: Vec<Vec<(usize, Vec<FilmProfile>)>>) -> FilmPool {
+    let mut pool = FilmPool::in_squares(square_px);
     for (number, frames) in (0..).zip(read) {
         for (frame, profiles) in frames {
             pool.take(number, frame as u16, profiles);
         }
     }
     pool
+}
+
+/// Profiles of a component in the first frame that is known of it.
+pub(super) fn first_profiles(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    anchors: &[Anchor],
+) -> Result<Vec<(usize, Vec<FilmProfile>)>> {
+    let mut reading = FilmReading::new(part.middle(), run.film.count(), part.number as u8);
+    if let Some(anchor) = anchors.first() {
+        reading.ask(anchor.frame, anchor.found.pose);
+    }
+    read(run, part, reading)
 }
 
 /// Profiles of a component in the frames around its anchors.

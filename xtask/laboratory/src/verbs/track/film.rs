@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Cell, Conclusion, State, frames_to_ask};
+use fluoropose::follow::{Anchor, Cell, Conclusion, State, frames_to_ask};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
 use fluoropose::refine::Polarity;
@@ -22,6 +22,7 @@ use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::Margins;
+use super::squares::chosen_square;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
     Film, Study, camera_of_frames, read, read_calibration, size_taken, write_poses, write_text,
@@ -115,10 +116,11 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let stated = Stated::of(study.film, &attenuations);
     let digest = digest(request, &study, &film, &models, &stated)?;
     let journal = request.out.join("journal.txt");
+    let journal = Journal::open(&journal, &digest, request.anew, request.stop.clone())?;
     let run = Run {
         request,
         film: &film,
-        journal: Journal::open(&journal, &digest, request.anew, request.stop.clone())?,
+        journal: &journal,
         parts: models.len(),
         seen: std::sync::Mutex::default(),
     };
@@ -130,19 +132,53 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     if let Some(remark) = side_remark(&study, &shapes) {
         (request.listener)(Told::Remark(remark));
     }
-    let parts = |polarity| -> Vec<Part<'_>> {
-        let part = |(number, shape)| Part::new(number, shape, &calibration, camera, polarity);
+    let parts_by = |seen, polarity| -> Vec<Part<'_>> {
+        let part = |(number, shape)| Part::new(number, shape, &calibration, seen, polarity);
         shapes.iter().enumerate().map(part).collect()
     };
-    let (parts, anchors) = begun(&run, parts)?;
-    learn_film(&run, &stated, &parts, &anchors)?;
-    let (mut films, mut margins) = followed(&run, &parts, &anchors)?;
-    let to_ask = |number| frames_to_ask(&good(&run, (number, &parts), &films, &margins));
-    let asked: Vec<_> = (0..parts.len()).map(to_ask).collect();
-    if learn_again(&run, &stated, &parts, &asked)? {
-        (films, margins) = followed(&run, &parts, &anchors)?;
+    let begun = begun(&run, |polarity| parts_by((camera, 1), polarity))?;
+    in_squares(&run, &stated, begun, |side, polarity| {
+        Ok(parts_by((camera.reduced(side)?, side), polarity))
+    })
+}
+
+/// Follows all components from their anchors in the squares that the film is well read in; `parts` are the components as they are seen in those.
+fn in_squares<'s>(
+    run: &Run<'_>,
+    stated: &Stated,
+    (begun, anchors): (Vec<Part<'s>>, Vec<Vec<Anchor>>),
+    parts: impl Fn(usize, Polarity) -> Result<Vec<Part<'s>>>,
+) -> Result<Vec<Tracked>> {
+    let polarity = begun.first().map(|part| part.polarity).unwrap_or_default();
+    let parts = |side| parts(side, polarity);
+    let side = chosen_square(run, stated, &anchors, parts)?;
+    if side == 1 {
+        return followed_through(run, stated, &begun, &anchors);
     }
-    finish(&run, &parts, &films, &margins)
+    run.say(format!(
+        "film: finer than its blur, read in squares of {side} pixels"
+    ));
+    let film = run.film.in_squares(side);
+    let in_squares = |all: Vec<Anchor>| all.iter().map(|one| one.in_squares(side)).collect();
+    let anchors: Vec<Vec<Anchor>> = anchors.into_iter().map(in_squares).collect();
+    followed_through(&run.on(&film), stated, &parts(side)?, &anchors)
+}
+
+/// Follows all components from their anchors, and once more where that tells of another film.
+fn followed_through(
+    run: &Run<'_>,
+    stated: &Stated,
+    parts: &[Part<'_>],
+    anchors: &[Vec<Anchor>],
+) -> Result<Vec<Tracked>> {
+    learn_film(run, stated, parts, anchors)?;
+    let (mut films, mut margins) = followed(run, parts, anchors)?;
+    let to_ask = |number| frames_to_ask(&good(run, (number, parts), &films, &margins));
+    let asked: Vec<_> = (0..parts.len()).map(to_ask).collect();
+    if learn_again(run, stated, parts, &asked)? {
+        (films, margins) = followed(run, parts, anchors)?;
+    }
+    finish(run, parts, &films, &margins)
 }
 
 /// What there is to say of the side of the body, without which there are no joint numbers, and of which no pose tells.

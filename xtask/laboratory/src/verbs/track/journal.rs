@@ -16,7 +16,7 @@ use super::record::Record;
 use crate::progress::Stop;
 
 /// First word of the file, with the version of what steps do: another version's steps are of no use.
-const HEADING: &str = "fluoropose-track-10";
+const HEADING: &str = "fluoropose-track-11";
 
 /// What was done so far.
 pub(super) struct Journal {

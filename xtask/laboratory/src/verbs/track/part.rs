@@ -39,7 +39,10 @@ pub(super) struct Part<'s> {
     pub(super) axes: Option<Pose>,
     /// What its joint tells by, where its shape tells which way it lies.
     pub(super) limb: Option<Limb<'s>>,
+    /// Of the film in the squares that it is seen in.
     pub(super) camera: Camera,
+    /// Their side, pixels of the files.
+    square_px: usize,
     pub(super) polarity: Polarity,
     calibration: &'s Calibration,
     libraries: [OnceLock<Built>; 2],
@@ -128,7 +131,7 @@ impl<'s> Part<'s> {
         number: usize,
         shape: &Shape<'s>,
         calibration: &'s Calibration,
-        camera: Camera,
+        (camera, square_px): (Camera, usize),
         polarity: Polarity,
     ) -> Self {
         let Shape {
@@ -147,6 +150,7 @@ impl<'s> Part<'s> {
             axes,
             limb,
             camera,
+            square_px,
             polarity,
             calibration,
             libraries: Default::default(),
@@ -183,15 +187,19 @@ impl<'s> Part<'s> {
         *known = (Some(film), known.1 + 1);
     }
 
-    /// Tells steps with the film's constants from those without, and from those with others.
-    pub(super) fn phase(&self) -> &'static str {
-        match (self.known_film().1, self.polarity) {
+    /// Tells steps with the film's constants from those without, from those with others, and from those in other squares.
+    pub(super) fn phase(&self) -> String {
+        let phase = match (self.known_film().1, self.polarity) {
             (0, Polarity::DarkImplant) => "bare",
             (1, Polarity::DarkImplant) => "film",
             (_, Polarity::DarkImplant) => "film-again",
             (0, Polarity::BrightImplant) => "bright-bare",
             (1, Polarity::BrightImplant) => "bright-film",
             (_, Polarity::BrightImplant) => "bright-film-again",
+        };
+        match self.square_px {
+            1 => phase.to_owned(),
+            side => format!("{phase}-{side}"),
         }
     }
 

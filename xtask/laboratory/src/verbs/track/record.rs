@@ -157,11 +157,28 @@ impl Record for Looked {
     }
 }
 
+/// The blur that profiles tell, where they tell one.
+pub(super) struct Blur(pub(super) Option<f64>);
+
+impl Record for Blur {
+    fn numbers(&self) -> Vec<f64> {
+        self.0.into_iter().collect()
+    }
+
+    fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        match *numbers {
+            [] => Some(Self(None)),
+            [blur] => Some(Self(Some(blur))),
+            _ => None,
+        }
+    }
+}
+
 /// What a film makes of each component of a study.
 pub(super) struct Films(pub(super) Vec<FilmModel>);
 
 /// Numbers of a component.
-const OF_A_FILM: usize = 16;
+const OF_A_FILM: usize = 17;
 
 impl Record for Films {
     fn numbers(&self) -> Vec<f64> {
@@ -170,11 +187,12 @@ impl Record for Films {
                 curvature,
                 blur_px,
                 sharpening: Sharpening { amount, radius_px },
+                square_px,
             } = film.constants;
             let MetalContrast { grey, passed } = film.contrast;
             let mut numbers = vec![curvature, blur_px, film.attenuation];
             numbers.extend(film.covariance.iter().flatten());
-            numbers.extend([amount, radius_px, grey, passed]);
+            numbers.extend([amount, radius_px, grey, passed, square_px as f64]);
             numbers
         };
         self.0.iter().flat_map(of).collect()
@@ -185,12 +203,13 @@ impl Record for Films {
             let mut reader = Reader(numbers);
             let [curvature, blur_px, attenuation] = reader.some()?;
             let covariance: [f64; 9] = reader.some()?;
-            let [amount, radius_px, grey, passed] = reader.some()?;
+            let [amount, radius_px, grey, passed, square_px] = reader.some()?;
             Some(FilmModel {
                 constants: FilmConstants {
                     curvature,
                     blur_px,
                     sharpening: Sharpening { amount, radius_px },
+                    square_px: square_px as usize,
                 },
                 attenuation,
                 contrast: MetalContrast { grey, passed },

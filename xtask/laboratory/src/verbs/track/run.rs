@@ -16,11 +16,23 @@ use crate::files::Film;
 pub(super) struct Run<'r> {
     pub(super) request: &'r Request,
     pub(super) film: &'r Film,
-    pub(super) journal: Journal,
+    pub(super) journal: &'r Journal,
     /// Number of components.
     pub(super) parts: usize,
     /// Frames that were looked at, by the numbers of their components.
     pub(super) seen: Mutex<BTreeSet<(usize, usize)>>,
+}
+
+impl<'r> Run<'r> {
+    /// The same on the same film in other squares.
+    pub(super) fn on(&self, film: &'r Film) -> Self {
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        Self {
+            film,
+            seen: Mutex::new(seen.clone()),
+            ..*self
+        }
+    }
 }
 
 impl Run<'_> {

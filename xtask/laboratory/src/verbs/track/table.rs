@@ -37,7 +37,7 @@ sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness
 /// The constants of the film as each component is seen on it, those of which they are known, with one standard deviation of each.
 pub(super) fn film_table<'p>(films: impl Iterator<Item = (&'p str, Option<FilmModel>)>) -> String {
     let mut text = String::from(
-        "component,curvature_a_grey_value,sd_curvature,blur_px,sd_blur_px,attenuation_a_mm,sd_attenuation_a_mm,edges_enhanced,enhanced_within_px\n",
+        "component,curvature_a_grey_value,sd_curvature,blur_px,sd_blur_px,attenuation_a_mm,sd_attenuation_a_mm,edges_enhanced,enhanced_within_px,square_px\n",
     );
     for (name, film) in films {
         let Some(film) = film else { continue };
@@ -52,7 +52,8 @@ pub(super) fn film_table<'p>(films: impl Iterator<Item = (&'p str, Option<FilmMo
             text.push_str(&format!(",{value},{deviation}"));
         }
         let Sharpening { amount, radius_px } = film.constants.sharpening;
-        text.push_str(&format!(",{amount},{radius_px}\n"));
+        let square_px = film.constants.square_px;
+        text.push_str(&format!(",{amount},{radius_px},{square_px}\n"));
     }
     text
 }

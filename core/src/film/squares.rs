@@ -1,0 +1,99 @@
+//! The squares of pixels that a film is read in.
+//!
+//! Where pixels are finer than a film's blur, they hold noise and no edges: profiles end before the edge has, and what is near an outline
+//! is looked for among grains. The mean of a square of pixels has as much of the edge and less of the noise. Which squares are right the
+//! blur in them tells: in the file's own pixels noise passes for a sharp film.
+//!
+//! A film has one answer. Constants that were read in squares say so ([`super::FilmConstants::square_px`]), and whoever looks at a frame with
+//! them gives it, and its camera, in such squares: [`crate::image::frame::Frame::reduce`], [`crate::camera::Camera::reduced`].
+//! Poses are in millimetres, and are the same.
+
+/// Sides that are tried, one after the other, pixels of the file.
+const TRIED: [usize; 2] = [2, 4];
+/// A film is as well read in squares in whose sides it is blurred so much. Seven films that are sharp to their pixels have 0.8 to 0.9 in squares of two
+/// pixels, six that are finer than their blur 1.0 to 1.7: `tests/records/disguises.md`, "Pixels finer than the blur".
+const ENOUGH_BLUR: f64 = 1.0;
+/// Larger ones are tried where the blur is so many sides of those that are well: where they halve it to little more than is enough, trays are read worse.
+const MORE_BLUR: f64 = 2.0;
+
+/// Finds the squares that a film is read in: profiles of frames with known poses are read in those that are [wanted](Self::wanted), and
+/// what they tell is [taken](Self::take), until none are wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct SquareChoice {
+    /// How many of those that are tried are well.
+    found: usize,
+    is_over: bool,
+}
+
+impl SquareChoice {
+    /// Of a film of which a person states the blur or not: what is stated in the file's pixels holds in them.
+    #[must_use]
+    pub fn new(is_stated: bool) -> Self {
+        Self {
+            found: 0,
+            is_over: is_stated,
+        }
+    }
+
+    /// The squares to read profiles in next, the side in pixels; `None` once it is known.
+    #[must_use]
+    pub fn wanted(&self) -> Option<usize> {
+        TRIED.get(self.found).copied().filter(|_| !self.is_over)
+    }
+
+    /// Takes the blur that profiles in the squares wanted tell, in their sides; `None` where they tell nothing.
+    pub fn take(&mut self, blur: Option<f64>) {
+        match blur {
+            Some(blur) if blur >= ENOUGH_BLUR => {
+                self.found += 1;
+                self.is_over = blur < MORE_BLUR;
+            }
+            _ => self.is_over = true,
+        }
+    }
+
+    /// The side of the squares that are well so far, pixels; 1 is the file's own pixels.
+    #[must_use]
+    pub fn square_px(&self) -> usize {
+        match self.found {
+            0 => 1,
+            found => TRIED[found - 1],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is found where blurs are these in squares of 2 and 4 pixels.
+    fn chosen(blurs: [Option<f64>; 2]) -> usize {
+        let mut choice = SquareChoice::new(false);
+        let mut blurs = blurs.into_iter();
+        while let Some(square) = choice.wanted() {
+            assert!(square > choice.square_px());
+            choice.take(blurs.next().flatten());
+        }
+        choice.square_px()
+    }
+
+    #[test]
+    fn squares_are_as_large_as_the_blur_allows() {
+        assert_eq!(chosen([Some(0.99), Some(2.0)]), 1);
+        assert_eq!(chosen([Some(1.0), Some(2.0)]), 2);
+        assert_eq!(chosen([Some(2.0), Some(0.99)]), 2);
+        assert_eq!(chosen([Some(2.0), Some(1.0)]), 4);
+    }
+
+    #[test]
+    fn what_tells_nothing_ends_the_choice() {
+        assert_eq!(chosen([None, Some(2.0)]), 1);
+        assert_eq!(chosen([Some(2.4), None]), 2);
+    }
+
+    #[test]
+    fn a_blur_that_is_stated_is_not_asked() {
+        let choice = SquareChoice::new(true);
+        assert_eq!((choice.wanted(), choice.square_px()), (None, 1));
+    }
+}

@@ -1,0 +1,89 @@
+//! Frames in squares of pixels: as much of a picture that is softer than its pixels, and less noise.
+
+use super::frame::{Frame, FrameError, Pixel};
+
+impl<P: Pixel> Frame<'_, P> {
+    /// Columns and rows of the frame in squares of `side` x `side` pixels: those at the end that fill none are left out.
+    #[must_use]
+    pub fn reduced_size(&self, side: usize) -> (usize, usize) {
+        (self.width() / side.max(1), self.height() / side.max(1))
+    }
+
+    /// Writes the frame in squares of `side` x `side` pixels ([`Self::reduced_size`]) row by row: of each the mean of its grey values, to the nearest.
+    ///
+    /// # Errors
+    /// [`FrameError::Empty`] where no square fits, [`FrameError::BufferTooShort`] where they do not fit `squares`.
+    pub fn reduce(&self, side: usize, squares: &mut [P]) -> Result<(), FrameError> {
+        let (width, height) = self.reduced_size(side);
+        if width == 0 || height == 0 {
+            return Err(FrameError::Empty { width, height });
+        }
+        let (needed, given) = (width.saturating_mul(height), squares.len());
+        if given < needed {
+            return Err(FrameError::BufferTooShort { needed, given });
+        }
+        let count = side.saturating_mul(side) as u32;
+        for (row, squares) in squares.chunks_exact_mut(width).take(height).enumerate() {
+            for (column, square) in squares.iter_mut().enumerate() {
+                let columns = side * column..side * (column + 1);
+                let of_row = |row| self.row(row).get(columns.clone()).unwrap_or_default();
+                let rows = (side * row..side * (row + 1)).map(of_row);
+                let sum: u32 = rows.flatten().map(|&pixel| pixel.into()).sum();
+                *square = P::from_u32((sum + count / 2) / count);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    #[test]
+    fn squares_that_do_not_fit_are_refused() {
+        let pixels = [0_u8; 24];
+        let frame = Frame::new(&pixels, 5, 4, 6).expect("fits");
+        let mut squares = [0; 4];
+        assert_eq!(frame.reduced_size(0), (5, 4));
+        assert_eq!(
+            frame.reduce(5, &mut squares),
+            Err(FrameError::Empty {
+                width: 1,
+                height: 0
+            })
+        );
+        let short = frame.reduce(2, &mut squares[..3]);
+        let (needed, given) = (4, 3);
+        assert_eq!(short, Err(FrameError::BufferTooShort { needed, given }));
+    }
+
+    properties! {
+        #[test]
+        fn squares_are_means_of_their_pixels(
+            grey in proptest::collection::vec(any::<u16>(), 9 * 12), side in 1..5usize,
+        ) {
+            let bytes: Vec<u8> = grey.iter().map(|&grey| grey as u8).collect();
+            let (columns, rows) = (11 / side, 9 / side);
+            let mut words = std::vec![0; columns * rows];
+            let mut few = std::vec![0; columns * rows];
+            let frame = Frame::new(&grey, 11, 9, 12).expect("fits");
+            prop_assert_eq!(frame.reduced_size(side), (columns, rows));
+            frame.reduce(side, &mut words).expect("fits");
+            Frame::new(&bytes, 11, 9, 12).expect("fits").reduce(side, &mut few).expect("fits");
+            for number in 0..columns * rows {
+                let corner = number / columns * side * 12 + number % columns * side;
+                let place = |k: usize| corner + k / side * 12 + k % side;
+                let count = side * side;
+                let mean = |value: &dyn Fn(usize) -> f64| {
+                    let sum: f64 = (0..count).map(|k| value(place(k))).sum();
+                    libm::floor(sum / count as f64 + 0.5)
+                };
+                prop_assert_eq!(f64::from(words[number]), mean(&|at| f64::from(grey[at])));
+                prop_assert_eq!(f64::from(few[number]), mean(&|at| f64::from(bytes[at])));
+            }
+        }
+    }
+}
