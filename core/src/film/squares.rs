@@ -10,9 +10,9 @@
 
 /// Sides that are tried, one after the other, pixels of the file.
 const TRIED: [usize; 2] = [2, 4];
-/// A film is as well read in squares in whose sides it is blurred so much. Seven films that are sharp to their pixels have 0.8 to 0.9 in squares of two
-/// pixels, six that are finer than their blur 1.0 to 1.7: `tests/records/disguises.md`, "Pixels finer than the blur".
-const ENOUGH_BLUR: f64 = 1.0;
+/// A film is as well read in squares in whose sides it is blurred so much. In squares of two pixels films that are sharp to those have 0.8 to 1.0, one of
+/// 1.03 was read a little worse, and nine of 1.1 to 1.8 better or as well: `tests/records/disguises.md`, "Pixels finer than the blur".
+const ENOUGH_BLUR: f64 = 1.1;
 /// Larger ones are tried where the blur is so many sides of those that are well: where they halve it to little more than is enough, trays are read worse.
 const MORE_BLUR: f64 = 2.0;
 
@@ -79,10 +79,10 @@ mod tests {
 
     #[test]
     fn squares_are_as_large_as_the_blur_allows() {
-        assert_eq!(chosen([Some(0.99), Some(2.0)]), 1);
-        assert_eq!(chosen([Some(1.0), Some(2.0)]), 2);
-        assert_eq!(chosen([Some(2.0), Some(0.99)]), 2);
-        assert_eq!(chosen([Some(2.0), Some(1.0)]), 4);
+        assert_eq!(chosen([Some(1.09), Some(2.0)]), 1);
+        assert_eq!(chosen([Some(1.1), Some(2.0)]), 2);
+        assert_eq!(chosen([Some(2.0), Some(1.09)]), 2);
+        assert_eq!(chosen([Some(2.0), Some(1.1)]), 4);
     }
 
     #[test]
