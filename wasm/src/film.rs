@@ -104,11 +104,11 @@ pub struct FilmSquares(SquareChoice);
 
 #[wasm_bindgen]
 impl FilmSquares {
-    /// Of a film of which a person states the blur or not.
+    /// Of a film of which a person states the blur, pixels of the frames, or not.
     #[wasm_bindgen(constructor)]
     #[must_use]
-    pub fn new(is_stated: bool) -> FilmSquares {
-        Self(SquareChoice::new(is_stated))
+    pub fn new(stated_blur_px: Option<f64>) -> FilmSquares {
+        Self(SquareChoice::new(stated_blur_px))
     }
 
     /// The side of the squares to read profiles in next, pixels; nothing once it is known.
@@ -155,6 +155,21 @@ fn kind(word: &str) -> Result<DisplayKind, JsError> {
 #[must_use]
 pub fn stated_film_words(curvature: f64, blur_px: f64) -> String {
     FilmConstants::plain(curvature, blur_px).to_string()
+}
+
+/// What a film makes of a component by constants that are stated, as [`FilmFacts::model`] has it: read in the squares that the blur tells.
+///
+/// # Errors
+/// A sentence about the numbers.
+#[wasm_bindgen(js_name = statedFilm)]
+pub fn stated_film(curvature: f64, blur_px: f64, attenuation: f64) -> Result<Vec<f64>, JsError> {
+    let model = film_model(&[curvature, blur_px, attenuation])?;
+    let side = SquareChoice::new(Some(blur_px)).square_px();
+    let in_squares = |model: FilmModel| FilmModel {
+        constants: model.constants.in_squares(side),
+        ..model
+    };
+    Ok(model.map_or(Vec::new(), |model| numbers_of(&in_squares(model))))
 }
 
 /// The constants of a film.
@@ -304,6 +319,10 @@ mod tests {
         );
         model.constants.square_px = 2;
         assert_eq!(film_model(&numbers_of(&model)).ok(), Some(Some(model)));
+        let stated = stated_film(0.02, 3.0, 0.4).ok().unwrap();
+        assert_eq!(stated[..3], [0.02, 1.5, 0.4]);
+        assert_eq!(stated[16], 2.0);
+        assert_eq!(stated_film(0.02, 1.3, 0.4).ok().unwrap()[16], 1.0);
         assert_eq!(film_model(&[]).ok(), Some(None));
     }
 

@@ -33,7 +33,7 @@ pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use camera::camera_doubts;
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
-pub use film::{FilmFacts, FilmStudy, stated_film_words};
+pub use film::{FilmFacts, FilmStudy, stated_film, stated_film_words};
 pub use follower::{FilmFollower, FilmReader, FollowedFilm};
 pub use found::Match;
 pub use frame_search::FrameSearch;

@@ -35,6 +35,22 @@ impl FilmConstants {
             square_px: 1,
         }
     }
+
+    /// The same film read in squares with sides of so many of the pixels that this is of.
+    #[must_use]
+    pub fn in_squares(self, side: usize) -> Self {
+        let Sharpening { amount, radius_px } = self.sharpening;
+        let pixels = side.max(1) as f64;
+        Self {
+            blur_px: self.blur_px / pixels,
+            sharpening: Sharpening {
+                amount,
+                radius_px: radius_px / pixels,
+            },
+            square_px: self.square_px * side.max(1),
+            ..self
+        }
+    }
 }
 
 /// As a person who stated them would say it.

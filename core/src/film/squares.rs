@@ -26,13 +26,20 @@ pub struct SquareChoice {
 }
 
 impl SquareChoice {
-    /// Of a film of which a person states the blur or not: what is stated in the file's pixels holds in them.
+    /// Of a film whose blur nobody states, or of one with this blur, pixels of the file: then nothing is to be read.
     #[must_use]
-    pub fn new(is_stated: bool) -> Self {
-        Self {
+    pub fn new(stated_blur_px: Option<f64>) -> Self {
+        let mut choice = Self {
             found: 0,
-            is_over: is_stated,
+            is_over: false,
+        };
+        if let Some(blur_px) = stated_blur_px {
+            while let Some(side) = choice.wanted() {
+                choice.take(Some(blur_px / side as f64));
+            }
         }
+        choice.is_over |= stated_blur_px.is_some();
+        choice
     }
 
     /// The squares to read profiles in next, the side in pixels; `None` once it is known.
@@ -68,7 +75,7 @@ mod tests {
 
     /// What is found where blurs are these in squares of 2 and 4 pixels.
     fn chosen(blurs: [Option<f64>; 2]) -> usize {
-        let mut choice = SquareChoice::new(false);
+        let mut choice = SquareChoice::new(None);
         let mut blurs = blurs.into_iter();
         while let Some(square) = choice.wanted() {
             assert!(square > choice.square_px());
@@ -92,8 +99,14 @@ mod tests {
     }
 
     #[test]
-    fn a_blur_that_is_stated_is_not_asked() {
-        let choice = SquareChoice::new(true);
-        assert_eq!((choice.wanted(), choice.square_px()), (None, 1));
+    fn a_blur_that_is_stated_is_not_asked_and_leads_to_the_same_squares() {
+        for (blur, side) in [(1.5, 1), (2.1, 1), (2.2, 2), (3.9, 2), (4.3, 2), (4.4, 4)] {
+            let choice = SquareChoice::new(Some(blur));
+            assert_eq!(
+                (choice.wanted(), choice.square_px()),
+                (None, side),
+                "{blur}"
+            );
+        }
     }
 }

@@ -1,5 +1,5 @@
 import { strToU8, zipSync } from 'fflate';
-import { CONSTANTS, filmNumbers } from '../document/film';
+import { CONSTANTS, filmNumbers, squareOf } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, isTaken, type Posed, verdictAlone, verdictOf } from '../document/types';
@@ -67,14 +67,17 @@ function constantsOf(doc: Doc): string {
   const rows = COMPONENT_NAMES.flatMap((component) => {
     const numbers = filmNumbers(doc, component);
     if (!numbers) return [];
-    const constants = [0, 1, 2].flatMap((k) => [numbers[k]!, Math.sqrt(Math.max(0, numbers[CONSTANTS + 4 * k] ?? 0))]);
+    const side = squareOf(numbers);
+    const values = [numbers[0]!, numbers[1]! * side, numbers[2]!];
+    // Of blur and attenuation the logarithm's deviation is known.
+    const deviation = (k: number) => Math.sqrt(Math.max(0, numbers[CONSTANTS + 4 * k] ?? 0)) * (k === 0 ? 1 : values[k]!);
     const [amount = 0, radius = 0] = numbers.slice(CONSTANTS + 9);
-    return [[component, ...constants, amount, radius]];
+    return [[component, ...values.flatMap((value, k) => [value, deviation(k)]), amount, radius * side, side]];
   });
   return tableOf([FILM_HEAD, ...rows]);
 }
 
-const FILM_HEAD = ['component', 'curvature_a_grey_value', 'sd_curvature', 'blur_px', 'sd_blur_px', 'attenuation_a_mm', 'sd_attenuation_a_mm', 'edges_enhanced', 'enhanced_within_px'];
+const FILM_HEAD = ['component', 'curvature_a_grey_value', 'sd_curvature', 'blur_px', 'sd_blur_px', 'attenuation_a_mm', 'sd_attenuation_a_mm', 'edges_enhanced', 'enhanced_within_px', 'square_px'];
 
 const SIX = [0, 1, 2, 3, 4, 5] as const;
 /** Numbers of the upper half of a covariance, and of what is the film's. */

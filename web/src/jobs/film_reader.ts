@@ -45,8 +45,9 @@ export class FilmReader {
   /** The worker has profiles of them, of a work that is shown no more. */
   readonly #left = new Map<string, Witness>();
   readonly #beside = new ReadBeside();
-  /** Of the squares that profiles are read in, pixels. */
+  /** Of the squares that profiles are read in, pixels; chosen before anything is estimated, and anew where a film is followed. */
   #side = 1;
+  #isSideChosen = false;
   /** What the page worked out itself, or adopted. */
   readonly #taken = new WeakSet<KnownFilm>();
   /** They cannot be corrected. */
@@ -87,6 +88,7 @@ export class FilmReader {
   async chooseSquares(read: (side: number) => Promise<readonly ReadProfiles[]>): Promise<number> {
     const { stated } = this.#services.store.doc.film;
     let { wanted, side } = await this.#films.call('beginSquares', { stated });
+    this.#isSideChosen = true;
     while (wanted !== null) ({ wanted, side } = await this.#films.call('takeSquares', { read: await read(wanted), stated }));
     if (side !== this.#side) this.#readAnew(side);
     return side;
@@ -94,6 +96,7 @@ export class FilmReader {
 
   #inSquaresOf({ models: { femur, tibia } }: KnownFilm): void {
     const side = squareOf((femur ?? tibia)?.numbers ?? null);
+    this.#isSideChosen = true;
     if (side !== this.#side) this.#readAnew(side);
   }
 
@@ -324,9 +327,20 @@ export class FilmReader {
     }
   }
 
+  /** By the first frame in which each component has a pose. */
+  async #chooseSide(here: readonly Witness[]): Promise<void> {
+    const first = COMPONENT_NAMES.flatMap((name) => here.filter(({ component }) => component === name).sort((a, b) => a.frame - b.frame).slice(0, 1));
+    // Another work is another film.
+    const isOfThese = !this.#beside.isEmpty || here.some(({ key }) => this.#entries.has(key));
+    if ((this.#isSideChosen && isOfThese) || first.length === 0) return;
+    const read = async (witness: Witness, side: number) => ({ ...namesOf(witness), profiles: await this.#profilesOf(witness, side) });
+    await this.chooseSquares((side) => Promise.all(first.map((witness) => read(witness, side))));
+  }
+
   async #estimate(here: readonly Witness[]): Promise<void> {
     const { store } = this.#services;
     const { stated } = store.doc.film;
+    await this.#chooseSide(here);
     this.#asked = JSON.stringify(stated);
     const read: ReadProfiles[] = [];
     const gone = stated.constants ? [] : this.#gone(here);
@@ -356,10 +370,10 @@ export class FilmReader {
   }
 
   /** None where the frame cannot be held against the pose. */
-  async #profilesOf({ component, frameId, pose }: Witness): Promise<Float32Array<ArrayBuffer>> {
+  async #profilesOf({ component, frameId, pose }: Witness, side = this.#side): Promise<Float32Array<ArrayBuffer>> {
     try {
       const input = await onFrameInput(this.#services, { component, frameId });
-      return await this.#poses.call('filmProfiles', { ...input, pose, side: this.#side }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
+      return await this.#poses.call('filmProfiles', { ...input, pose, side }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
     } catch (error) {
       if (error instanceof Aborted) throw error;
       return new Float32Array();

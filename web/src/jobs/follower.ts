@@ -112,7 +112,7 @@ export class Follower {
     store.amend((doc) => withoutSoFar(doc, [...before.values()]));
     if (found.length > 0) store.perform(takeFollowed(found));
     const lacking = found.filter(({ pose }) => !pose).length;
-    const done = texts.follow.done(posesOf(store.doc, parts), found.some(isDoubtful), lacking, abort.signal.aborted);
+    const done = texts.follow.done(posesOf(store.doc, parts), howManyDoubtful(found), lacking, abort.signal.aborted);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 
@@ -120,6 +120,8 @@ export class Follower {
   #sayNotFound(missing: readonly ComponentName[]): void {
     const { store } = this.#services;
     const frame = currentFrame(store.state);
+    // What is to be clicked next is the component that a click is for.
+    if (missing.length === 1) store.selectComponent(missing[0]!);
     for (const component of frame ? missing : []) {
       store.sayAt({ frameId: frame!.id, component }, 'error', this.#whyMissing(component));
     }
@@ -212,6 +214,12 @@ function framesOf(parts: readonly Part[]): number {
 function posesOf(doc: Doc, parts: readonly Part[]): number {
   const posed = parts.flatMap(({ component }) => doc.frames.filter(({ id }) => chosenCandidate(cellOf(doc, id, component))));
   return posed.length;
+}
+
+function howManyDoubtful(found: readonly Followed[]): 'none' | 'some' | 'all' {
+  const posed = found.filter(({ pose }) => pose !== null);
+  if (!posed.some(isDoubtful)) return 'none';
+  return posed.every(isDoubtful) ? 'all' : 'some';
 }
 
 function isDoubtful({ pose, doubtful, led }: Followed): boolean {

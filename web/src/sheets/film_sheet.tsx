@@ -111,8 +111,8 @@ function asKnown({ known }: Film, components: Doc['components']): FilmConstants 
     return model && model.of === components[component].model?.sha256 ? model.numbers : null;
   };
   const attenuation = { femur: rounded(numbers('femur')?.[2]), tibia: rounded(numbers('tibia')?.[2]) };
-  const [curvature, blur] = numbers('femur') ?? numbers('tibia') ?? [];
-  return { curvature: Math.max(0, rounded(curvature) ?? 0), blur: rounded(blur) ?? 1, attenuation };
+  const [curvature] = numbers('femur') ?? numbers('tibia') ?? [];
+  return { curvature: Math.max(0, rounded(curvature) ?? 0), blur: rounded(known?.blur) ?? 1, attenuation };
 }
 
 /** Four digits: more are not known. */

@@ -34,8 +34,8 @@ export const follow = {
   allSet: 'Every frame is followed already from those that are set.',
   gone: (frame: number) => `Frame ${frame} is gone: following stopped there.`,
   /** How many are doubtful the header counts: what film and joint tell afterwards changes it. */
-  done: (posed: number, someDoubtful: boolean, missing: number, stopped: boolean) =>
-    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${someDoubtful ? ', some doubtful: N goes from one to the next' : ''}.${
+  done: (posed: number, doubtful: 'none' | 'some' | 'all', missing: number, stopped: boolean) =>
+    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful === 'none' ? '' : `, ${doubtful} doubtful: N goes from one to the next`}.${
       missing > 0 ? ` ${missing} ${missing === 1 ? 'cell is' : 'cells are'} without one (✕): a click there, or an outline, helps.` : ''
     }`,
 };

@@ -112,9 +112,9 @@ describe('poses as the commands take them', () => {
     store.perform(setModel('femur', { name: 'f', sha256: 'f' }));
     store.perform(setModel('tibia', { name: 't', sha256: 't' }));
     const numbers = [0.01, 1.5, 0.2, 4, 0, 0, 0, 9, 0, 0, 0, 16, 0.8, 2.5, 60, 0.3];
-    const models = { femur: { of: 'f', numbers }, tibia: { of: 't', numbers: [0.01, 1.5, 0.3] } };
+    const models = { femur: { of: 'f', numbers }, tibia: { of: 't', numbers: [0.01, 1.5, 0.3, ...Array(9).fill(0), 0.8, 2.5, 60, 0.3, 2] } };
     store.amend((doc) => withKnownFilm(doc, { words: '', stated: doc.film.stated, blur: 1.5, curved: 1, profiles: 9, models }));
     const rows = strFromU8(unzipSync(zipOf(store.doc, { femur: 'F', tibia: 'T' }))['film.csv']!).split('\r\n');
-    expect(rows.slice(1)).toEqual(['femur,0.01,2,1.5,3,0.2,4,0.8,2.5', 'tibia,0.01,0,1.5,0,0.3,0,0,0', '']);
+    expect(rows.slice(1)).toEqual(['femur,0.01,2,1.5,4.5,0.2,0.8,0.8,2.5,1', 'tibia,0.01,0,3,0,0.3,0,0.8,5,2', '']);
   });
 });

@@ -27,6 +27,8 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   const hidden: (readonly number[] | null)[] = [];
   /** Where each correction began, mm. */
   const starts: number[] = [];
+  /** What is found where squares are tried. */
+  const squares = { side: 1 };
   /** Of the squares that each witness was read in. */
   const sides: (number | undefined)[] = [];
   const poses = async (method: string, input: { component: string; side?: number; unknown: OnFrame['unknown']; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
@@ -50,7 +52,7 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   };
   const films = async (method: string, input: Estimate): Promise<FilmFacts | SquaresState | null> => {
     if (method === 'beginSquares') return { wanted: 2, side: 1 };
-    if (method === 'takeSquares') return { wanted: null, side: 2 };
+    if (method === 'takeSquares') return { wanted: null, side: squares.side };
     asked.push(input);
     const curvature = curvatures.length > 1 ? curvatures.shift() : curvatures[0];
     const numbers = curvature == null ? null : [curvature, 0.8, 0.7, 1e-8, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
@@ -65,7 +67,7 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
     store.perform(setModel(component, { name: component, sha256: component }));
     store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
   }
-  return { store, reader, asked, corrected, hidden, starts, sides, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
+  return { store, reader, asked, corrected, hidden, starts, sides, squares, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
 }
 
 /** A pose as a click finds it. */
@@ -96,17 +98,28 @@ const handed = (asked: readonly Estimate[]) => asked.map(({ read }) => read?.map
 
 describe('squares that a film is read in', () => {
   it('are those of all that is read from then on, and of what was read before', async () => {
-    const { store, reader, asked, sides } = bench([0.026, 0.03]);
+    const { store, reader, asked, sides, squares } = bench([0.026, 0.03]);
     store.perform(clicked(store.doc));
     await rest();
-    expect(sides).toEqual([1]);
+    // One was tried.
+    expect(sides).toEqual([2, 1]);
+    squares.side = 2;
     const read: number[] = [];
     const side = await reader.chooseSquares(async (tried) => (read.push(tried), BESIDE.read));
     expect([side, read]).toEqual([2, [2]]);
     reader.takeBeside('femur', BESIDE);
     await rest();
-    expect(new Set(sides.slice(1))).toEqual(new Set([2]));
+    expect(new Set(sides.slice(2))).toEqual(new Set([2]));
     expect(asked.at(-1)).toMatchObject({ side: 2 });
+  });
+
+  it('are chosen before the film is estimated, by the first pose', async () => {
+    const { store, asked, sides, squares } = bench([0.026]);
+    squares.side = 2;
+    store.perform(clicked(store.doc));
+    await rest();
+    expect(sides).toEqual([2, 2]);
+    expect(asked).toMatchObject([{ side: 2 }]);
   });
 
   it('are those of a film that a session brings', async () => {

@@ -22,7 +22,7 @@ describe('sentences', () => {
   });
 
   it('of following say how many cells were left without a pose', () => {
-    expect(en.follow.done(14, true, 8, false)).toContain('8 cells are without one');
-    expect(en.follow.done(14, false, 0, false)).toBe('14 poses found.');
+    expect(en.follow.done(14, 'some', 8, false)).toContain('8 cells are without one');
+    expect(en.follow.done(14, 'none', 0, false)).toBe('14 poses found.');
   });
 });

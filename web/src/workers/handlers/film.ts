@@ -1,4 +1,4 @@
-import { type FilmFacts as RawFacts, FilmSquares, FilmStudy, statedFilmWords } from '../../pkg/core/fluoropose_wasm.js';
+import { type FilmFacts as RawFacts, FilmSquares, FilmStudy, statedFilm, statedFilmWords } from '../../pkg/core/fluoropose_wasm.js';
 import type { FilmConstants } from '../../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
 import { squareOf } from '../../document/film';
@@ -33,7 +33,7 @@ serve<FilmProtocol>({
   beginSquares: async ({ stated }) => {
     await ready;
     squares?.free();
-    squares = new FilmSquares(stated.blur !== null || stated.constants !== null);
+    squares = new FilmSquares(stated.constants?.blur ?? stated.blur ?? undefined);
     return stateOf(squares);
   },
   takeSquares: async ({ read, stated }) => {
@@ -79,7 +79,7 @@ function told(facts: RawFacts | undefined, components: readonly ComponentName[])
 function asStated({ curvature, blur, attenuation }: FilmConstants): FilmFacts {
   const of = (component: ComponentName) => {
     const own = attenuation[component];
-    return own === null ? null : [curvature, blur, own];
+    return own === null ? null : Array.from(statedFilm(curvature, blur, own));
   };
   return { words: statedFilmWords(curvature, blur), blur, curved: 0, profiles: 0, models: { femur: of('femur'), tibia: of('tibia') } };
 }

@@ -26,7 +26,8 @@ pub(super) fn learn_film(
             run.say(format!("film: {constants}"));
             for (part, film) in parts.iter().zip(models) {
                 if let Some(film) = film {
-                    part.set_film(*film);
+                    let constants = film.constants.in_squares(run.film.square_px());
+                    part.set_film(FilmModel { constants, ..*film });
                 }
             }
             return Ok(());

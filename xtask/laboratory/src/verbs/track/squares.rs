@@ -19,11 +19,13 @@ pub(super) fn chosen_square<'s>(
     anchors: &[Vec<Anchor>],
     parts: impl Fn(usize) -> Result<Vec<Part<'s>>>,
 ) -> Result<usize> {
-    // Constants that are stated are those of the files' pixels.
-    let Stated::Part(given) = *stated else {
-        return Ok(1);
+    let given = match stated {
+        Stated::Part(given) => *given,
+        Stated::Whole(constants, _) => {
+            return Ok(SquareChoice::new(Some(constants.blur_px)).square_px());
+        }
     };
-    let mut choice = SquareChoice::new(given.blur_px.is_some());
+    let mut choice = SquareChoice::new(given.blur_px);
     while let Some(side) = choice.wanted() {
         let Blur(told) = run.journal.step(&format!("squares/{side}"), || {
             let film = run.film.in_squares(side);

@@ -34,25 +34,27 @@ pub(super) const TABLE: &str = "track.csv";
 pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness,file,frame_of_file\n";
 
-/// The constants of the film as each component is seen on it, those of which they are known, with one standard deviation of each.
+/// The constants of the film as each component is seen on it, those of which they are known, with one standard deviation of each. Pixels are
+/// those of the file.
 pub(super) fn film_table<'p>(films: impl Iterator<Item = (&'p str, Option<FilmModel>)>) -> String {
     let mut text = String::from(
         "component,curvature_a_grey_value,sd_curvature,blur_px,sd_blur_px,attenuation_a_mm,sd_attenuation_a_mm,edges_enhanced,enhanced_within_px,square_px\n",
     );
     for (name, film) in films {
         let Some(film) = film else { continue };
-        let values = [
-            film.constants.curvature,
-            film.constants.blur_px,
-            film.attenuation,
-        ];
+        let square_px = film.constants.square_px;
+        let pixels = square_px as f64;
+        let blur_px = film.constants.blur_px * pixels;
+        let values = [film.constants.curvature, blur_px, film.attenuation];
         text.push_str(&quoted(name));
         for (k, value) in values.into_iter().enumerate() {
-            let deviation = film.covariance[k][k].max(0.0).sqrt();
+            // Of blur and attenuation the logarithm's is known.
+            let unit = if k == 0 { 1.0 } else { value };
+            let deviation = unit * film.covariance[k][k].max(0.0).sqrt();
             text.push_str(&format!(",{value},{deviation}"));
         }
         let Sharpening { amount, radius_px } = film.constants.sharpening;
-        let square_px = film.constants.square_px;
+        let radius_px = radius_px * pixels;
         text.push_str(&format!(",{amount},{radius_px},{square_px}\n"));
     }
     text
