@@ -47,13 +47,13 @@ async function besideOf(services: Services, subject: Subject, side: number, sign
   return { model, anchors: anchorsOf(doc, given), read: await profilesFrom(services, subject, first, signal, looked) };
 }
 
-/** Reads the film at the first pose of each component, in squares with sides of so many pixels. */
+/** Reads the film at the first poses of each component, in squares with sides of so many pixels. */
 export async function readFirst(services: Services, subjects: readonly Subject[], side: number, signal: AbortSignal): Promise<readonly ReadProfiles[]> {
   const { doc } = services.store;
   const each = subjects.map(async (subject) => {
     const { component, worker, span } = subject;
     const { model: _, ...input } = subjectOf(services, component);
-    const given = span.given.slice(0, 1);
+    const given = span.given.slice(0, POSES);
     const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, side, given, justThere: true });
     return profilesFrom(services, subject, first, signal, () => undefined);
   });

@@ -87,9 +87,14 @@ export class FilmReader {
   /** The side of the squares of pixels that the film is read in from now on, by what `read` reads in those that are tried. */
   async chooseSquares(read: (side: number) => Promise<readonly ReadProfiles[]>): Promise<number> {
     const { stated } = this.#services.store.doc.film;
-    let { wanted, side } = await this.#films.call('beginSquares', { stated });
-    this.#isSideChosen = true;
-    while (wanted !== null) ({ wanted, side } = await this.#films.call('takeSquares', { read: await read(wanted), stated }));
+    let { wanted, side, isTold } = await this.#films.call('beginSquares', { stated });
+    while (wanted !== null) {
+      const found = await this.#films.call('takeSquares', { read: await read(wanted), stated });
+      isTold ||= found.isTold;
+      ({ wanted, side } = found);
+    }
+    // Wrong poses tell nothing: others are asked as they come.
+    this.#isSideChosen = isTold;
     if (side !== this.#side) this.#readAnew(side);
     return side;
   }
@@ -327,9 +332,9 @@ export class FilmReader {
     }
   }
 
-  /** By the first frame in which each component has a pose. */
+  /** By the first frames in which each component has a pose. */
   async #chooseSide(here: readonly Witness[]): Promise<void> {
-    const first = COMPONENT_NAMES.flatMap((name) => here.filter(({ component }) => component === name).sort((a, b) => a.frame - b.frame).slice(0, 1));
+    const first = COMPONENT_NAMES.flatMap((name) => here.filter(({ component }) => component === name).sort((a, b) => a.frame - b.frame).slice(0, FIRST));
     // Another work is another film.
     const isOfThese = !this.#beside.isEmpty || here.some(({ key }) => this.#entries.has(key));
     if ((this.#isSideChosen && isOfThese) || first.length === 0) return;
@@ -434,6 +439,9 @@ const MEETING_FRAMES: readonly ToolName[] = ['one-click', 'pose'];
 
 /** Corrected poses tell a little more, and that corrects them a little more: it settles after two or three turns. */
 const TURNS = 5;
+
+/** So many poses of each component tell the squares that a film is read in. */
+const FIRST = 3;
 
 /** So many more poses, of those that were asked, are worth asking: while a film is followed there is a new one every moment. */
 const MORE = 0.4;

@@ -28,7 +28,7 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   /** Where each correction began, mm. */
   const starts: number[] = [];
   /** What is found where squares are tried. */
-  const squares = { side: 1 };
+  const squares = { side: 1, isTold: true };
   /** Of the squares that each witness was read in. */
   const sides: (number | undefined)[] = [];
   const poses = async (method: string, input: { component: string; side?: number; unknown: OnFrame['unknown']; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
@@ -51,8 +51,8 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
     }));
   };
   const films = async (method: string, input: Estimate): Promise<FilmFacts | SquaresState | null> => {
-    if (method === 'beginSquares') return { wanted: 2, side: 1 };
-    if (method === 'takeSquares') return { wanted: null, side: squares.side };
+    if (method === 'beginSquares') return { wanted: 2, side: 1, isTold: false };
+    if (method === 'takeSquares') return { wanted: null, side: squares.side, isTold: squares.isTold };
     asked.push(input);
     const curvature = curvatures.length > 1 ? curvatures.shift() : curvatures[0];
     const numbers = curvature == null ? null : [curvature, 0.8, 0.7, 1e-8, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
@@ -120,6 +120,18 @@ describe('squares that a film is read in', () => {
     await rest();
     expect(sides).toEqual([2, 2]);
     expect(asked).toMatchObject([{ side: 2 }]);
+  });
+
+  it('are asked for again where the first pose told nothing', async () => {
+    const { store, sides, squares } = bench([null]);
+    squares.isTold = false;
+    store.perform(clicked(store.doc));
+    await rest();
+    expect(sides).toEqual([2, 1]);
+    Object.assign(squares, { side: 2, isTold: true });
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    expect(sides.slice(2)).toEqual([2, 2, 2, 2]);
   });
 
   it('are those of a film that a session brings', async () => {

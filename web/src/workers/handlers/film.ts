@@ -34,16 +34,17 @@ serve<FilmProtocol>({
     await ready;
     squares?.free();
     squares = new FilmSquares(stated.constants?.blur ?? stated.blur ?? undefined);
-    return stateOf(squares);
+    return stateOf(squares, squares.wanted === undefined);
   },
   takeSquares: async ({ read, stated }) => {
     await ready;
     if (!squares) throw new Error('no squares are looked for');
     const tried = FilmStudy.inSquares(squares.wanted ?? squares.side);
     for (const { component, frame, profiles } of read) tried.take(COMPONENT_NAMES.indexOf(component), frame, profiles);
-    squares.take(tried.estimate(stated.display ?? undefined, undefined));
+    const facts = tried.estimate(stated.display ?? undefined, undefined);
+    squares.take(facts);
     tried.free();
-    return stateOf(squares);
+    return stateOf(squares, facts !== undefined);
   },
   take: async ({ read, side }) => {
     await ready;
@@ -52,8 +53,8 @@ serve<FilmProtocol>({
   },
 });
 
-function stateOf({ wanted, side }: FilmSquares): SquaresState {
-  return { wanted: wanted ?? null, side };
+function stateOf({ wanted, side }: FilmSquares, isTold: boolean): SquaresState {
+  return { wanted: wanted ?? null, side, isTold };
 }
 
 function takeAll(read: readonly ReadProfiles[], side: number): FilmStudy {

@@ -86,6 +86,8 @@ export interface FilmProtocol {
 export interface SquaresState {
   readonly wanted: number | null;
   readonly side: number;
+  /** Somebody states the blur, or profiles told it. */
+  readonly isTold: boolean;
 }
 
 /** What was read of a component that was followed with what was `known` of the film. */

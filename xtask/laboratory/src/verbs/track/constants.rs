@@ -108,14 +108,17 @@ pub(super) fn pooled(square_px: usize, read: Vec<Vec<(usize, Vec<FilmProfile>)>>
     pool
 }
 
-/// Profiles of a component in the first frame that is known of it.
+/// Frames that tell the squares which a film is read in.
+const FIRST: usize = 3;
+
+/// Profiles of a component in the first frames that are known of it.
 pub(super) fn first_profiles(
     run: &Run<'_>,
     part: &Part<'_>,
     anchors: &[Anchor],
 ) -> Result<Vec<(usize, Vec<FilmProfile>)>> {
     let mut reading = FilmReading::new(part.middle(), run.film.count(), part.number as u8);
-    if let Some(anchor) = anchors.first() {
+    for anchor in anchors.iter().take(FIRST) {
         reading.ask(anchor.frame, anchor.found.pose);
     }
     read(run, part, reading)

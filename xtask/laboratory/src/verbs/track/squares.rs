@@ -11,7 +11,7 @@ use super::record::Blur;
 use super::run::Run;
 use crate::finding::Stated;
 
-/// Their side, pixels of the files, by what the first frame that is known of each component tells in the squares that are tried. Chosen once
+/// Their side, pixels of the files, by what the first frames that are known of each component tell in the squares that are tried. Chosen once
 /// for a folder, as the film's constants are; `parts` are the components as they are seen in squares.
 pub(super) fn chosen_square<'s>(
     run: &Run<'_>,
