@@ -1,5 +1,5 @@
-import * as commands from '../document/commands';
 import type { Offer } from '../document/store';
+import { startEmpty } from '../document/start_anew';
 import type { Doc } from '../document/types';
 import type { Services } from '../jobs/services';
 import { later } from '../texts/later';
@@ -24,9 +24,7 @@ export async function areOthers({ store, assets }: Pick<Services, 'store' | 'ass
 /** Another study begins: what is open steps aside as it is, and the button that goes with the news brings it back. */
 export function stepAside({ store }: Pick<Services, 'store'>): { readonly sentence: string; readonly offer: Offer } {
   const before: Doc = store.doc;
-  store.perform(commands.startAnew());
-  store.show({ viewport: null, popover: null, savedAt: null, selectedPoint: null });
-  store.goTo(0);
+  startEmpty(store);
   const take = () => {
     store.perform({ label: texts.keep.openLabel, apply: () => before });
     store.show({ viewport: null, selectedPoint: null });

@@ -1,9 +1,9 @@
 import { readDoc, readView, SESSION_VERSION } from '../document/session/session';
 import { ReadError } from '../document/reader';
+import { startEmpty } from '../document/start_anew';
 import type { Doc } from '../document/types';
 import { TOOL_NAMES } from '../terms/tool';
 import { texts } from '../texts/texts';
-import { stepAside } from '../exchange/another_study';
 import { bringFiles } from '../exchange/bring_files';
 import { sentenceOf, type Services } from '../jobs/services';
 import type { Keeper } from './keeper';
@@ -11,7 +11,7 @@ import type { KeptWork } from './shelf';
 import { work } from '../workers/activity';
 
 export function startAnew({ store }: Services): void {
-  stepAside({ store });
+  startEmpty(store);
   store.say('info', texts.keep.startedAnew);
 }
 
