@@ -1,9 +1,12 @@
 //! Frames in squares of pixels: as much of a picture that is softer than its pixels, and less noise.
 
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
 use super::frame::{Frame, FrameError, Pixel};
 
 impl<P: Pixel> Frame<'_, P> {
-    /// Columns and rows of the frame in squares of `side` x `side` pixels: those at the end that fill none are left out.
+    /// Columns and rows of the frame in squares of `side` x `side` pixels: those at the end that fill none are left out. A side of 0 counts as 1.
     #[must_use]
     pub fn reduced_size(&self, side: usize) -> (usize, usize) {
         (self.width() / side.max(1), self.height() / side.max(1))
@@ -14,6 +17,7 @@ impl<P: Pixel> Frame<'_, P> {
     /// # Errors
     /// [`FrameError::Empty`] where no square fits, [`FrameError::BufferTooShort`] where they do not fit `squares`.
     pub fn reduce(&self, side: usize, squares: &mut [P]) -> Result<(), FrameError> {
+        let side = side.max(1);
         let (width, height) = self.reduced_size(side);
         if width == 0 || height == 0 {
             return Err(FrameError::Empty { width, height });
@@ -22,17 +26,30 @@ impl<P: Pixel> Frame<'_, P> {
         if given < needed {
             return Err(FrameError::BufferTooShort { needed, given });
         }
-        let count = side.saturating_mul(side) as u32;
+        let count = side as u64 * side as u64;
         for (row, squares) in squares.chunks_exact_mut(width).take(height).enumerate() {
             for (column, square) in squares.iter_mut().enumerate() {
                 let columns = side * column..side * (column + 1);
                 let of_row = |row| self.row(row).get(columns.clone()).unwrap_or_default();
                 let rows = (side * row..side * (row + 1)).map(of_row);
-                let sum: u32 = rows.flatten().map(|&pixel| pixel.into()).sum();
-                *square = P::from_u32((sum + count / 2) / count);
+                let sum: u64 = rows.flatten().map(|&pixel| u64::from(pixel.into())).sum();
+                // A mean is no more than the greatest.
+                *square = P::from_u32(((sum + count / 2) / count) as u32);
             }
         }
         Ok(())
+    }
+
+    /// The same in memory of its own.
+    ///
+    /// # Errors
+    /// [`FrameError::Empty`] where no square fits.
+    #[cfg(feature = "alloc")]
+    pub fn reduced(&self, side: usize) -> Result<Vec<P>, FrameError> {
+        let (width, height) = self.reduced_size(side);
+        let mut squares = alloc::vec![P::default(); width * height];
+        self.reduce(side, &mut squares)?;
+        Ok(squares)
     }
 }
 
@@ -48,6 +65,8 @@ mod tests {
         let frame = Frame::new(&pixels, 5, 4, 6).expect("fits");
         let mut squares = [0; 4];
         assert_eq!(frame.reduced_size(0), (5, 4));
+        #[cfg(feature = "alloc")]
+        assert_eq!(frame.reduced(0).map(|all| all.len()), Ok(20));
         assert_eq!(
             frame.reduce(5, &mut squares),
             Err(FrameError::Empty {

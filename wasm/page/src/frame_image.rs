@@ -226,17 +226,18 @@ impl FrameImage {
     /// # Errors
     /// The core's sentence where no square fits.
     pub fn reduced(&self, side: usize) -> Result<Self, JsError> {
-        let whole = (self.width, self.height);
-        let (pixels, size) = match self.pixels() {
-            Pixels::Eight(pixels) => {
-                let (squares, size) = squares(pixels, whole, side)?;
-                (Pixels::Eight(squares), size)
-            }
-            Pixels::Sixteen(pixels) => {
-                let (squares, size) = squares(pixels, whole, side)?;
-                (Pixels::Sixteen(squares), size)
-            }
+        let whole @ (width, height) = (self.width, self.height);
+        let side = side.max(1);
+        let size = (width / side, height / side);
+        let pixels = match self.pixels() {
+            Pixels::Eight(pixels) => Frame::new(pixels, width, height, width)
+                .and_then(|frame| frame.reduced(side))
+                .map(Pixels::Eight),
+            Pixels::Sixteen(pixels) => Frame::new(pixels, width, height, width)
+                .and_then(|frame| frame.reduced(side))
+                .map(Pixels::Sixteen),
         };
+        let pixels = pixels.map_err(sentence)?;
         Ok(Self {
             pixels: Rc::new(pixels),
             covered: self.covered.reduced(whole, size, side),
@@ -331,19 +332,6 @@ impl FrameImage {
             }
         }
     }
-}
-
-/// Squares of pixels, row by row, and how many columns and rows of them there are.
-fn squares<P: Pixel>(
-    pixels: &[P],
-    (width, height): (usize, usize),
-    side: usize,
-) -> Result<(Vec<P>, (usize, usize)), JsError> {
-    let whole = Frame::new(pixels, width, height, width).map_err(sentence)?;
-    let size = whole.reduced_size(side);
-    let mut squares = vec![P::default(); size.0 * size.1];
-    whole.reduce(side, &mut squares).map_err(sentence)?;
-    Ok((squares, size))
 }
 
 fn check<P: Pixel>(pixels: &[P], width: u32, height: u32) -> Result<(), JsError> {

@@ -1,6 +1,5 @@
 //! A component that is looked at in frames of a film.
 
-use crate::squares::look_in_squares;
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
@@ -13,6 +12,8 @@ use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use wasm_bindgen::prelude::*;
+
+use crate::squares::look_in_squares;
 
 /// The component, the camera, and the memory to look at frames.
 pub(super) struct Seen {

@@ -39,6 +39,12 @@ describe('another study beside work', () => {
     expect(await areOthers(services, [{ name: 'b.png', blob: new Blob(['mended']) }])).toBe(false);
   });
 
+  it('is none where the work waits for its own files', async () => {
+    const services = await bench('a.png');
+    const waiting = { store: services.store, assets: new Assets() };
+    expect(await areOthers(waiting, files('b.png'))).toBe(false);
+  });
+
   it('begins empty, and one button brings back what was open, which undo takes again', async () => {
     const services = await bench('a.png');
     const { store } = services;

@@ -141,31 +141,16 @@ pub fn grey(frame: &GreyFrame) -> Result<Box<dyn Grey + '_>> {
 /// # Errors
 /// For a frame without pixels, or smaller than a square.
 pub(super) fn reduced(frame: &GreyFrame, side: usize) -> Result<GreyFrame> {
-    fn squares<P: Pixel>(
-        pixels: &[P],
-        frame: &GreyFrame,
-        side: usize,
-    ) -> Result<(Vec<P>, (usize, usize))> {
-        let (width, height) = (frame.width as usize, frame.height as usize);
-        let whole = Frame::new(pixels, width, height, width)?;
-        let size = whole.reduced_size(side);
-        let mut squares = vec![P::default(); size.0 * size.1];
-        whole.reduce(side, &mut squares)?;
-        Ok((squares, size))
-    }
-    let (pixels, (width, height)) = match &frame.pixels {
-        Pixels::U8(pixels) => {
-            let (squares, size) = squares(pixels, frame, side)?;
-            (Pixels::U8(squares), size)
-        }
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    let pixels = match &frame.pixels {
+        Pixels::U8(pixels) => Pixels::U8(Frame::new(pixels, width, height, width)?.reduced(side)?),
         Pixels::U16(pixels) => {
-            let (squares, size) = squares(pixels, frame, side)?;
-            (Pixels::U16(squares), size)
+            Pixels::U16(Frame::new(pixels, width, height, width)?.reduced(side)?)
         }
     };
     Ok(GreyFrame {
-        width: width as u32,
-        height: height as u32,
+        width: frame.width / side as u32,
+        height: frame.height / side as u32,
         pixels,
         bits: frame.bits,
         window: frame.window,
