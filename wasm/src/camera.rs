@@ -14,6 +14,23 @@ pub fn camera_doubts(text: &str, width: u32, height: u32) -> Result<Vec<String>,
     Ok(doubts.map(|doubt| doubt.to_string()).collect())
 }
 
+/// Distances in mm of the libraries that a part is looked for with in frames of `width` x `height` pixels, as the core's
+/// `search_distances` has them.
+///
+/// # Errors
+/// The core's sentence about the calibration.
+#[wasm_bindgen(js_name = searchDistances)]
+pub fn search_distances(
+    text: &str,
+    width: u32,
+    height: u32,
+    told: Option<f64>,
+    depth: Option<f64>,
+) -> Result<Vec<f64>, JsError> {
+    let (calibration, _) = calibration::calibration_of(text, width, height)?;
+    Ok(calibration.search_distances(told, depth).to_vec())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,7 +34,10 @@ use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
 /// Looks for a component in one frame after the other, in steps between which a worker can be called off.
 #[wasm_bindgen]
 pub struct FrameSearch {
-    library: OpenLibrary,
+    /// At least one.
+    libraries: Vec<OpenLibrary>,
+    /// The number of the one that frames are compared with.
+    library: usize,
     model: OwnedModel,
     planes: Vec<SymmetryPlane>,
     /// Of whole frames, and of those in the squares that the film is read in.
@@ -114,7 +117,8 @@ impl FrameSearch {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         let camera = camera(calibration, width, height)?;
         Ok(Self {
-            library: OpenLibrary::of(library)?,
+            libraries: vec![OpenLibrary::of(library)?],
+            library: 0,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
             model,
             whole: camera,
@@ -133,6 +137,29 @@ impl FrameSearch {
             search: None,
             walk: None,
         })
+    }
+
+    /// Takes another library of the model, as of another distance. They are numbered as they were given, the first one is 0.
+    ///
+    /// # Errors
+    /// The core's sentence about the library.
+    #[wasm_bindgen(js_name = addLibrary)]
+    pub fn add_library(&mut self, library: Vec<u8>) -> Result<(), JsError> {
+        self.libraries.push(OpenLibrary::of(library)?);
+        Ok(())
+    }
+
+    /// Says which library frames are compared with from now on.
+    ///
+    /// # Errors
+    /// A sentence where there are not so many.
+    #[wasm_bindgen(js_name = useLibrary)]
+    pub fn use_library(&mut self, number: usize) -> Result<(), JsError> {
+        if number >= self.libraries.len() {
+            return Err(JsError::new(&format!("There is no library {number}")));
+        }
+        self.library = number;
+        Ok(())
     }
 
     /// Says whether metal is brighter than what surrounds it, from now on.
@@ -247,7 +274,7 @@ impl FrameSearch {
         let frame = self.squares.as_ref().unwrap_or(frame);
         let model = self.model.as_model();
         let component = Component {
-            library: self.library.borrow_dependent(),
+            library: self.libraries[self.library].borrow_dependent(),
             model: &model,
             planes: &self.planes,
         };

@@ -164,6 +164,16 @@ impl SearchStep {
         word.to_owned()
     }
 
+    /// About how far away it is, mm, where another one tells that.
+    #[wasm_bindgen(getter)]
+    pub fn depth(&self) -> Option<f64> {
+        match self.step.search {
+            Search::Whole { depth_mm, .. } => depth_mm,
+            Search::Beside { depth_mm, .. } => Some(depth_mm),
+            Search::Joint(_) | Search::Follow { .. } => None,
+        }
+    }
+
     /// Six numbers of the pose that is known there: of the other component, or of the one that is to be followed.
     #[wasm_bindgen(getter)]
     pub fn known(&self) -> Option<Vec<f64>> {

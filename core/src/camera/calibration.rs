@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use heapless::Vec;
 use thiserror::Error;
 
 use crate::camera::{Camera, CameraError};
@@ -156,6 +157,27 @@ impl Calibration {
         const PART: f64 = 0.9;
         self.principal_distance()
             .map_or(1000.0, |distance| PART * distance)
+    }
+
+    /// Distances in mm of the libraries that a part is looked for with where nobody points at it, in the order in which they are tried: one
+    /// where that was `told` or the file states the principal distance, else two, each of which serves parts from three quarters of it to a
+    /// third more; of these the one alone that serves a part at `depth`, mm, where that is about known.
+    #[must_use]
+    pub fn search_distances(&self, told: Option<f64>, depth: Option<f64>) -> Vec<f64, 2> {
+        const FARTHER: f64 = 1.3;
+        const NEARER: f64 = 0.75;
+        let usual = self.expected_distance();
+        let both = [FARTHER * usual, NEARER * usual];
+        let one = match (told, self.principal_distance(), depth) {
+            (Some(told), _, _) => told,
+            (None, Some(_), _) => usual,
+            (None, None, None) => return Vec::from(both),
+            (None, None, Some(depth)) => {
+                let off = |distance: f64| libm::fabs(libm::log(distance / depth));
+                both[usize::from(off(both[1]) < off(both[0]))]
+            }
+        };
+        Vec::from([one])
     }
 
     /// Distance from focus to detector in mm, where the file states it.
@@ -345,133 +367,4 @@ fn next_translation<'a>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::string::ToString;
-
-    const MATRIX: &str = "image size\r\n1024,768\r\n\r\ncamera matrix\r\n3200,0,510.5\r\n0,3180,380\r\n0,0,1\r\n\r\n\
-        rotation\r\n0,-1,0\r\n1,0,0\r\n0,0,1\r\n\r\ntranslation\r\n1\r\n-2\r\n3.5\r\n";
-
-    #[test]
-    fn jt_intcalib_is_read_and_written() {
-        let text = "JT_INTCALIB\n1198\n0\n-1.5\n0.373\n";
-        let calibration = Calibration::parse(text).expect("valid");
-        assert_eq!(calibration.to_string(), text);
-        assert_eq!(calibration.principal_distance(), Some(1198.0));
-        let camera = calibration.camera(1024, 1024).expect("valid");
-        assert_eq!(camera.focal(), [1198.0 / 0.373; 2]);
-        assert_eq!(camera.principal_point(), [512.0, 512.0 + 1.5 / 0.373]);
-        let spaced = "\u{feff}JT_INTCALIB \r\n\r\n 1198 \r\n0\r\n -1.5,\r\n.373";
-        assert_eq!(Calibration::parse(spaced), Ok(calibration));
-        let later = text.replace("JT_", "JTA_");
-        assert_eq!(Calibration::parse(&later), Ok(calibration));
-    }
-
-    #[test]
-    fn a_camera_matrix_counts_from_pixel_centres() {
-        let calibration = Calibration::parse(MATRIX).expect("valid");
-        let camera = calibration.camera(1024, 768).expect("the file's own size");
-        assert_eq!(camera.focal(), [3200.0, 3180.0]);
-        assert_eq!(camera.principal_point(), [511.0, 380.5]);
-        let again = Calibration::parse(&calibration.to_string());
-        assert_eq!(again, Ok(calibration));
-        let Calibration::CameraMatrix { laboratory, .. } = calibration else {
-            panic!("a camera matrix")
-        };
-        assert_eq!(laboratory.translation, [1.0, -2.0, 3.5]);
-        assert_eq!(
-            calibration.camera(1024, 1024),
-            Err(CalibrationError::FrameSize {
-                calibration: (1024, 768),
-                frame: (1024, 1024)
-            })
-        );
-    }
-
-    #[test]
-    fn a_matrix_without_a_laboratory_and_with_a_row_of_translation_is_read() {
-        let bare = MATRIX.split("rotation").next().expect("text");
-        assert!(Calibration::parse(bare).is_ok());
-        let row = MATRIX.replace("1\r\n-2\r\n3.5\r\n", "1,-2,3.5");
-        assert_eq!(Calibration::parse(&row), Calibration::parse(MATRIX));
-    }
-
-    #[test]
-    fn faults_are_named() {
-        let parse = |text: &str| {
-            Calibration::parse(text)
-                .map(|_| ())
-                .map_err(|e| e.to_string())
-        };
-        for (text, words) in [
-            ("", "neither with JT_INTCALIB"),
-            ("JT_EULER_312\n1", "neither with JT_INTCALIB"),
-            ("JT_INTCALIB\n1198\n0\n0\n", "ends before its pixel pitch"),
-            (
-                "JT_INTCALIB\n1198\nzero\n0\n0.3",
-                "line 3 of the calibration, the principal point x",
-            ),
-            ("JT_INTCALIB\nNaN\n0\n0\n0.3", "principal distance is NaN"),
-            ("JT_INTCALIB\n0\n0\n0\n0.3", "principal distance is 0"),
-            ("JT_INTCALIB\n1198\n0\ninf\n0.3", "principal point y is inf"),
-            ("JT_INTCALIB\n1198\n0\n0\n-0.3", "pixel pitch is -0.3"),
-            (
-                "image size\n1024,1024\ncamera matrix\n1,2,3",
-                "camera matrix",
-            ),
-        ] {
-            let error = parse(text).expect_err(text);
-            assert!(error.contains(words), "{text:?}: {error}");
-        }
-        for size in [
-            "1024.9,768",
-            "1024,767.5",
-            "nan,768",
-            "-1024,768",
-            "1024,inf",
-            "1e30,768",
-        ] {
-            let error = parse(&MATRIX.replace("1024,768", size)).expect_err(size);
-            assert!(
-                error.contains("line 2 of the calibration, the image size"),
-                "{error}"
-            );
-        }
-        assert!(parse(&MATRIX.replace("1024,768", "1024.0,768")).is_ok());
-        assert!(parse(&MATRIX.replace("0,3180", "2,3180")).is_err());
-        assert!(parse(&MATRIX.replace("3200", "nan")).is_err());
-        let parts = parse(&MATRIX.replace("3200", "3.1").replace("3180", "3.1"))
-            .expect_err("not in pixels");
-        assert!(
-            parts.contains("is 3.1; it must be at least a tenth"),
-            "{parts}"
-        );
-        for (focal, words) in [("3200", "x runs the other way"), ("3180", "y runs")] {
-            let error = parse(&MATRIX.replace(focal, &std::format!("-{focal}"))).expect_err(focal);
-            assert!(error.contains(words), "{error}");
-            assert!(error.contains(&std::format!("-{focal}")), "{error}");
-        }
-        assert!(parse(&MATRIX.replace("0,-1,0", "0,1,0")).is_err());
-    }
-
-    #[test]
-    fn a_file_cut_anywhere_is_refused_or_still_the_same() {
-        let whole = Calibration::parse(MATRIX).expect("valid");
-        for length in 0..MATRIX.len() {
-            // What is left may end within the last number, or before an optional part.
-            if let Ok(Calibration::CameraMatrix { focal, centre, .. }) =
-                Calibration::parse(&MATRIX[..length])
-            {
-                let Calibration::CameraMatrix {
-                    focal: f,
-                    centre: c,
-                    ..
-                } = whole
-                else {
-                    panic!("a camera matrix")
-                };
-                assert_eq!((focal, centre), (f, c), "{length}");
-            }
-        }
-    }
-}
+mod tests;

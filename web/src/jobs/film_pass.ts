@@ -10,6 +10,7 @@ import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/
 import { frameAt, subjectOf, unlessAborted } from './beside_poses';
 import type { FirstPoses } from './first_poses';
 import type { Looked, Progress } from './follow_progress';
+import type { CalledOff } from './search_libraries';
 import type { Services } from './services';
 
 /** What was there in cells that are followed so far, by component and frame. */
@@ -39,14 +40,16 @@ export class FilmPass {
   readonly #before: Before;
   readonly #progress: Progress;
   readonly #signal: AbortSignal;
+  readonly #calledOff: CalledOff;
 
-  constructor(services: Services, first: Pick<FirstPoses, 'open'>, parts: readonly Part[], before: Before, progress: Progress, signal: AbortSignal) {
+  constructor(services: Services, first: Pick<FirstPoses, 'open'>, parts: readonly Part[], before: Before, progress: Progress, calledOff: CalledOff) {
     this.#services = services;
     this.#first = first;
     this.#parts = parts;
     this.#before = before;
     this.#progress = progress;
-    this.#signal = signal;
+    this.#signal = calledOff.signal;
+    this.#calledOff = calledOff;
   }
 
   /** Follows them, and looks for what is lost. */
@@ -127,7 +130,7 @@ export class FilmPass {
     const { doc } = this.#services.store;
     const { mesh, camera } = subjectOf(this.#services, component);
     const { first, last, given } = span;
-    const searches = await this.#first.open(component, worker);
+    const searches = (await this.#first.open(component, worker, given[0]?.pose ?? null, this.#calledOff).catch(unlessAborted)) ?? false;
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), this.#progress.followed);
     // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.

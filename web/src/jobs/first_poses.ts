@@ -1,7 +1,9 @@
 import type { Place } from '../document/command';
 import { setOutline } from '../document/outlines';
 import { cellOf, chosenCandidate } from '../document/types';
+import { middleOf } from '../geometry/mesh_middle';
 import { type FramePoint, framePoint } from '../geometry/points';
+import { inCamera } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
@@ -9,9 +11,9 @@ import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
 import type { Discovery, FindInput, Known, Member, PlanState, PlanStep } from '../workers/protocol/first_poses';
 import type { FollowProtocol } from '../workers/protocol/follow';
-import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameAt } from './beside_poses';
 import { libraryReady } from './library_ready';
+import { type CalledOff, type Distance, SearchLibraries } from './search_libraries';
 import { asJob, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
@@ -33,16 +35,15 @@ interface Taken {
 }
 
 /** What a search goes by. */
-interface Search {
+interface Search extends CalledOff {
   readonly parts: readonly Member[];
   readonly workers: Workers;
   readonly bright: boolean | null;
-  readonly signal: AbortSignal;
-  readonly cancel: () => void;
   /** Places in what was found, by way, component and frame. */
   readonly places: Map<string, readonly [number, number]>;
   readonly taken: Map<ComponentName, Taken>;
-  readonly opened: Set<ComponentName>;
+  /** Of each component the libraries that its worker has, as they are numbered there. */
+  readonly opened: Map<ComponentName, Distance[]>;
 }
 
 /**
@@ -51,33 +52,40 @@ interface Search {
  */
 export class FirstPoses {
   readonly #services: Services;
-  readonly #poser: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #clicks: Clicks;
+  readonly #libraries: Pick<SearchLibraries, 'distances' | 'bytes'>;
 
-  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks) {
+  constructor(services: Services, clicks: Clicks, libraries: Pick<SearchLibraries, 'distances' | 'bytes'>) {
     this.#services = services;
-    this.#poser = poser;
     this.#clicks = clicks;
+    this.#libraries = libraries;
   }
 
-  /** Opens what frames are searched with; false where there is no library. */
-  async open(component: ComponentName, worker: Worker): Promise<boolean> {
+  /** Opens what frames are searched with where a component is lost that was at a pose; false where there is no library. */
+  async open(component: ComponentName, worker: Worker, pose: PoseNumbers | null, calledOff: CalledOff): Promise<boolean> {
+    const own = this.#member(component);
+    const depth = own && pose && -inCamera(pose, middleOf(own.mesh))[2];
+    const [distance = null] = await this.#libraries.distances(component, worker, depth);
+    return this.#openAt(component, worker, distance, calledOff);
+  }
+
+  async #openAt(component: ComponentName, worker: Worker, distance: Distance, calledOff: CalledOff): Promise<boolean> {
     const { store, studio } = this.#services;
     await libraryReady(store, component);
     const { doc, ui } = store;
     const own = this.#member(component);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!own || !camera || ui.libraries[component].state !== 'ready') return false;
-    const library = await this.#poser.call('library', { component });
+    const library = await this.#libraries.bytes(component, distance, calledOff);
     const other = studio.meshOf(doc.components[otherThan(component)].model?.sha256 ?? '') && this.#member(otherThan(component));
     await worker.call('openSearch', { ...own, other, camera, library, bright: ui.tracing.bright ?? false }, { transfer: [library.buffer] });
     return true;
   }
 
   /** Looks for components; gives those that were found nowhere. */
-  async find(wanted: readonly ComponentName[], workers: Workers, signal: AbortSignal, cancel: () => void): Promise<readonly ComponentName[]> {
+  async find(wanted: readonly ComponentName[], workers: Workers, calledOff: CalledOff): Promise<readonly ComponentName[]> {
     const parts = COMPONENT_NAMES.flatMap((name) => this.#member(name) ?? []);
-    const search = { parts, workers, signal, cancel, places: new Map(), taken: new Map(), opened: new Set<ComponentName>() };
+    const search = { ...calledOff, parts, workers, places: new Map(), taken: new Map(), opened: new Map<ComponentName, Distance[]>() };
     const known = new Map(parts.map(({ component }) => [component, wanted.includes(component) ? [] : this.#known(component)]));
     const bright = this.#services.store.ui.tracing.bright ?? (await this.#told({ ...search, bright: null }, known));
     await this.#run({ ...search, bright }, known);
@@ -121,18 +129,28 @@ export class FirstPoses {
     });
   }
 
-  async #look({ way, part, frame, search: how, places, known }: PlanStep, search: Search): Promise<Discovery | null> {
+  /** Compares a frame with one library after the other until the component is found. */
+  async #look(step: PlanStep, search: Search): Promise<Discovery | null> {
+    const { component } = search.parts[step.part]!;
+    for (const distance of await this.#libraries.distances(component, search.workers[component], step.depth)) {
+      const library = await this.#numberOf(distance, component, search);
+      const found = library === null ? null : await this.#compare(step, library, search);
+      if (found || step.search === 'joint') return found;
+    }
+    return null;
+  }
+
+  async #compare({ way, part, frame, search: how, places, known }: PlanStep, library: number, search: Search): Promise<Discovery | null> {
     const own = search.parts[part]!;
     const { component } = own;
     const worker = search.workers[component];
-    if (!(await this.#isOpen(component, search))) return null;
     const { frameId, ...pixels } = await frameAt(this.#services, frame);
     const beside: FindInput['beside'] = known && { pose: known, inJoint: how === 'joint' };
     const other = known && texts.component[otherThan(component)];
     const title = texts.follow.looking(texts.component[component], frame + 1, other);
     const job = { title, unit: texts.tracing.said.percent, total: 100, cancel: search.cancel, place: { frameId, component } };
     const found = await asJob(this.#services.store, job, (report) =>
-      worker.call('find', { ...pixels, beside, places, bright: isBright(way, search) }, {
+      worker.call('find', { ...pixels, library, beside, places, bright: isBright(way, search) }, {
         signal: search.signal,
         transfer: [pixels.pixels.buffer],
         onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
@@ -161,9 +179,26 @@ export class FirstPoses {
     return ends;
   }
 
-  async #isOpen(component: ComponentName, { opened, workers }: Search): Promise<boolean> {
-    if (!opened.has(component) && (await this.open(component, workers[component]))) opened.add(component);
-    return opened.has(component);
+  async #isOpen(component: ComponentName, search: Search): Promise<boolean> {
+    if (search.opened.has(component)) return true;
+    const [first = null] = await this.#libraries.distances(component, search.workers[component], null);
+    return (await this.#numberOf(first, component, search)) !== null;
+  }
+
+  /** The number of a library in the worker, which is given it where it has it not yet; null where there is none. */
+  async #numberOf(distance: Distance, component: ComponentName, search: Search): Promise<number | null> {
+    const worker = search.workers[component];
+    const opened = search.opened.get(component);
+    if (!opened) {
+      if (!(await this.#openAt(component, worker, distance, search))) return null;
+      search.opened.set(component, [distance]);
+      return 0;
+    }
+    const number = opened.indexOf(distance);
+    if (number >= 0) return number;
+    const library = await this.#libraries.bytes(component, distance, search);
+    await worker.call('addLibrary', { library }, { transfer: [library.buffer] });
+    return opened.push(distance) - 1;
   }
 
   /** Whether metal is bright, by a component that is known; null where none is. */

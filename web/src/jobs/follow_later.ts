@@ -14,9 +14,9 @@ export class FollowLater {
 
   constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks, film: Pick<FilmLater, 'ready' | 'chooseSquares' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>) {
     this.#make = async () => {
-      const [{ Follower }, { FirstPoses }] = await Promise.all([import('./follower'), import('./first_poses')]);
+      const [{ Follower }, { FirstPoses }, { SearchLibraries }] = await Promise.all([import('./follower'), import('./first_poses'), import('./search_libraries')]);
       const workers = { femur: followWorker(), tibia: followWorker() };
-      return new Follower(services, workers, new FirstPoses(services, poser, clicks), film);
+      return new Follower(services, workers, new FirstPoses(services, clicks, new SearchLibraries(services, poser)), film);
     };
   }
 

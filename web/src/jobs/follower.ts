@@ -15,6 +15,7 @@ import type { FilmLater } from './film_later';
 import { type Before, FilmPass, type Part } from './film_pass';
 import type { FirstPoses } from './first_poses';
 import { Progress } from './follow_progress';
+import type { CalledOff } from './search_libraries';
 import { asJob, type Report, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
@@ -67,7 +68,7 @@ export class Follower {
     const isHere = (component: ComponentName) => studio.meshOf(store.doc.components[component].model?.sha256 ?? '') !== null;
     const unposed = standingOf(store.doc).unposed.filter(isHere);
     const cancel = () => abort.abort();
-    const missing = unposed.length > 0 ? await this.#first.find(unposed, this.#workers, abort.signal, cancel) : [];
+    const missing = unposed.length > 0 ? await this.#first.find(unposed, this.#workers, { signal: abort.signal, cancel }) : [];
     await this.#filmReady(abort);
     return missing;
   }
@@ -107,8 +108,9 @@ export class Follower {
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
     const before: Before = new Map();
-    const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel: () => abort.abort() };
-    const found = await asJob(store, job, (report) => this.#all(parts, before, report, abort.signal));
+    const cancel = () => abort.abort();
+    const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel };
+    const found = await asJob(store, job, (report) => this.#all(parts, before, report, { signal: abort.signal, cancel }));
     store.amend((doc) => withoutSoFar(doc, [...before.values()]));
     if (found.length > 0) store.perform(takeFollowed(found));
     const lacking = found.filter(({ pose }) => !pose).length;
@@ -171,9 +173,10 @@ export class Follower {
    * Follows them, and once more where what is good then tells that the constants of the film are others than those that it was followed with:
    * they hang on the poses that the film was read beside, which may be wrong.
    */
-  async #all(parts: readonly Part[], before: Before, report: Report, signal: AbortSignal): Promise<readonly Followed[]> {
+  async #all(parts: readonly Part[], before: Before, report: Report, calledOff: CalledOff): Promise<readonly Followed[]> {
     const { store } = this.#services;
-    const pass = new FilmPass(this.#services, this.#first, parts, before, new Progress(report, framesOf(parts)), signal);
+    const { signal } = calledOff;
+    const pass = new FilmPass(this.#services, this.#first, parts, before, new Progress(report, framesOf(parts)), calledOff);
     await pass.run();
     const asked = signal.aborted || !this.#isWhole(parts) ? null : await this.#asked(parts, pass, report, signal);
     if (!asked || !(await this.#film.learnAgain(asked, signal))) return pass.answers();
@@ -183,7 +186,7 @@ export class Follower {
     // What leads may have been corrected by the film.
     const again = this.#parts(store.doc);
     const progress = new Progress(report, framesOf(again), texts.follow.again);
-    const second = new FilmPass(this.#services, this.#first, again, before, progress, signal);
+    const second = new FilmPass(this.#services, this.#first, again, before, progress, calledOff);
     if (!signal.aborted) await second.run();
     return signal.aborted ? soFar : second.answers();
   }

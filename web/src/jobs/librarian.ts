@@ -1,21 +1,14 @@
 import type { Doc } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
-import { cameraOf, libraryKey } from '../results/keys';
-import { LibraryPool } from './library_pool';
+import { libraryKey } from '../results/keys';
+import { libraryPlan } from './library_plan';
+import { LibraryPool, workersFor } from './library_pool';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { LibraryFacts } from '../workers/protocol/library';
 import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from '../workers/start';
 import { texts } from '../texts/texts';
-
-/** Each has memory of its own, some megabytes; that more than these save time was not tried. */
-const MOST_WORKERS = 8;
-
-/** One core is left for the page, unless that were half of all. */
-function workersFor(cores: number): number {
-  return Math.min(cores, Math.max(2, cores - 1), MOST_WORKERS);
-}
 
 /**
  * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
@@ -72,7 +65,7 @@ export class Librarian {
       const { libraryFile } = store.doc.components[component];
       const facts = libraryFile
         ? await this.#openFile(component, libraryFile.sha256, store.doc, abort.signal)
-        : await this.#build(component, store.doc, abort);
+        : await this.#build(component, abort);
       const seconds = libraryFile ? null : (performance.now() - startedAt) / 1000;
       if (!abort.signal.aborted) store.setLibrary(component, { state: 'ready', key, ...facts, seconds });
     } catch (error) {
@@ -89,17 +82,13 @@ export class Librarian {
     return this.#poser.call('open', { component, bytes: new Uint8Array(await asset.blob.arrayBuffer()), mesh }, { signal });
   }
 
-  async #build(component: ComponentName, doc: Doc, abort: AbortController): Promise<LibraryFacts> {
-    const { store, studio } = this.#services;
-    const { model, librarySpec: spec } = doc.components[component];
-    const mesh = model && studio.meshOf(model.sha256);
-    const camera = cameraOf(doc, doc.frames[0] ?? null);
-    if (!mesh || !camera) throw new Error(texts.said.library.noInputs);
+  async #build(component: ComponentName, abort: AbortController): Promise<LibraryFacts> {
+    const plan = libraryPlan(this.#services, component);
     const cancel = () => abort.abort();
     const { signal } = abort;
-    return asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (onProgress) => {
-      const bytes = await this.#pool.build({ mesh, camera, spec }, { signal, onProgress });
-      return this.#poser.call('open', { component, bytes, mesh }, { signal, transfer: [bytes.buffer] });
+    return asJob(this.#services.store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (onProgress) => {
+      const bytes = await this.#pool.build(plan, { signal, onProgress });
+      return this.#poser.call('open', { component, bytes, mesh: plan.mesh }, { signal, transfer: [bytes.buffer] });
     });
   }
 

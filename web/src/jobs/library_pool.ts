@@ -4,6 +4,14 @@ import type { LibraryPlan, LibraryProtocol } from '../workers/protocol/library';
 /** Views that a worker draws before it asks for more: some hundredths of a second, after which it can be called off. */
 const VIEWS_AT_A_TIME = 24;
 
+/** Each has memory of its own, some megabytes; that more than these save time was not tried. */
+const MOST_WORKERS = 8;
+
+/** One core is left for the page, unless that were half of all. */
+export function workersFor(cores: number): number {
+  return Math.min(cores, Math.max(2, cores - 1), MOST_WORKERS);
+}
+
 interface Build {
   readonly signal: AbortSignal;
   readonly onProgress: (done: number, total: number) => void;

@@ -16,7 +16,7 @@ const at = (frame: number, x: number) => ({ frame, pose: poseOf(x) });
 /** An order of work that is written down: each step with what is known after it. */
 type Script = readonly (readonly [PlanStep | null, PlanState['known']])[];
 
-function bench(script: Script, way: number, answers: readonly (Discovery | null)[]) {
+function bench(script: Script, way: number, answers: readonly (Discovery | null)[], distances: readonly (number | null)[] = [null]) {
   const store = new Store();
   store.perform(addFrames([0, 1, 2].map((k) => ({ id: `f${k}`, name: `f${k}`, source: 's', indexInSource: k, width: 8, height: 8 }))));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
@@ -34,8 +34,8 @@ function bench(script: Script, way: number, answers: readonly (Discovery | null)
     call: async (method: string, input: never) => {
       if (method === 'plan') return (begun = input), state();
       if (method === 'planned') return planned.push(input), state();
-      const { bright, beside } = input as FindInput;
-      asked.push(method === 'find' ? [component, bright, beside?.inJoint ?? null] : `${component}: ${method}`);
+      const { bright, beside, library } = input as FindInput;
+      asked.push(method === 'find' ? [component, bright, beside?.inJoint ?? null, ...(library === 0 ? [] : [library])] : `${component}: ${method}`);
       if (method === 'find') return left.shift() ?? null;
       if (method === 'isBright') return true;
       return method === 'beginWalk' ? 1 : { next: null, ends: Float64Array.of(1) };
@@ -50,13 +50,18 @@ function bench(script: Script, way: number, answers: readonly (Discovery | null)
       store.perform({ label: 'click', apply: (doc) => withCell(doc, place, { ...cellOf(doc, place.frameId, place.component), outline, result, resultOf: outline }) });
     },
   };
+  const opened: unknown[] = [];
+  const libraries = {
+    distances: async (_: ComponentName, __: unknown, depth: number | null) => (depth === null ? distances : distances.slice(0, 1)),
+    bytes: async (component: ComponentName, distance: number | null) => (opened.push([component, distance]), new Uint8Array(1)),
+  };
   const workers = { femur: worker('femur'), tibia: worker('tibia') } as never;
-  const first = new FirstPoses({ store, studio } as never, { call: async () => new Uint8Array(1) } as never, clicks);
-  const find = (wanted: readonly ComponentName[]) => first.find(wanted, workers, new AbortController().signal, () => undefined);
-  return { store, find, asked, planned, clicked, begun: () => begun };
+  const first = new FirstPoses({ store, studio } as never, clicks, libraries);
+  const find = (wanted: readonly ComponentName[]) => first.find(wanted, workers, { signal: new AbortController().signal, cancel: () => undefined });
+  return { store, find, asked, planned, clicked, opened, begun: () => begun };
 }
 
-const step = (way: number, part: number, frame: number, search: PlanStep['search'], known: PoseNumbers | null = null): PlanStep => ({ way, part, frame, search, places: 'all', known });
+const step = (way: number, part: number, frame: number, search: PlanStep['search'], known: PoseNumbers | null = null): PlanStep => ({ way, part, frame, search, places: 'all', depth: search === 'beside' ? 1000 : null, known });
 const NOTHING = [[null, null], [null, null]];
 
 describe('first poses', () => {
@@ -82,6 +87,20 @@ describe('first poses', () => {
     expect(await find(['femur', 'tibia'])).toEqual(['tibia']);
     expect(clicked.map(([{ frameId }, bright]) => [frameId, bright])).toEqual([['f1', false], ['f2', true]]);
     expect([1, 2].map((frame) => cellOf(store.doc, `f${frame}`, 'femur').outline === null)).toEqual([true, false]);
+  });
+
+  it('compares a frame with the views from the next distance where it is found in none from the first, and opens each once', async () => {
+    const { find, asked, opened, planned } = bench(
+      [[step(0, 0, 1, 'whole'), NOTHING], [step(0, 0, 2, 'whole'), NOTHING], [step(0, 1, 2, 'beside', poseOf(7)), [[at(2, 7), null], [null, null]]], [null, [[at(2, 7), null], [null, null]]]],
+      0,
+      [null, null, null, discovery(7), null],
+      [1300, 750],
+    );
+    expect(await find(['femur', 'tibia'])).toEqual(['tibia']);
+    expect(opened).toEqual([['femur', 1300], ['femur', 750], ['tibia', 1300]]);
+    const femur = ['femur', false, null];
+    expect(asked).toEqual(['femur: openSearch', femur, 'femur: addLibrary', [...femur, 1], femur, [...femur, 1], 'tibia: openSearch', ['tibia', false, false]]);
+    expect(planned).toEqual([{ found: null }, { found: discovery(7) }, { found: null }]);
   });
 
   it('asks a component that is known how metal is shown, and leads on from there', async () => {

@@ -1,4 +1,4 @@
-import { type FrameImage, FrameSearch, SearchPlan, shapeAxes } from '../../pkg/core/fluoropose_wasm.js';
+import { type FrameImage, FrameSearch, searchDistances, SearchPlan, shapeAxes } from '../../pkg/core/fluoropose_wasm.js';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { middleOf } from '../../geometry/mesh_middle';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
@@ -73,15 +73,24 @@ export function firstPoses(ready: Promise<unknown>, searcher: Searcher): Handler
       return planner.begin(input);
     },
     planned: (answer) => planner.take(answer),
+    distances: async ({ camera: { text, width, height }, told, depth }) => {
+      await ready;
+      return [...searchDistances(text, width, height, told ?? undefined, depth ?? undefined)];
+    },
     openSearch: async (input) => {
       await ready;
       searcher.open(input);
       return null;
     },
+    addLibrary: ({ library }) => {
+      searcher.own().addLibrary(library);
+      return null;
+    },
     isBright: ({ pose, ...pixels }) => withImage(pixels, async (image) => searcher.own().isBright(image, numbers(pose))),
-    find: ({ beside, bright, places, ...pixels }, context) =>
+    find: ({ beside, bright, library, places, ...pixels }, context) =>
       withImage(pixels, (image) => {
         searcher.own().showBright(bright);
+        searcher.own().useLibrary(library);
         return searcher.find(image, { beside, places }, context);
       }),
     beginWalk: ({ frame, pose, frames, bright }) => {
@@ -131,7 +140,7 @@ class Planner {
     };
     const state = {
       step: step
-        ? { way: step.way, part: step.part, frame: step.frame, search: step.search as 'whole', places: step.places as 'all', known: step.known ? poseFrom(step.known) : null }
+        ? { way: step.way, part: step.part, frame: step.frame, search: step.search as 'whole', places: step.places as 'all', depth: step.depth ?? null, known: step.known ? poseFrom(step.known) : null }
         : null,
       known: WAYS.map((way) => Array.from({ length: this.#count }, (_, part) => known(way, part))),
       way: plan.way ?? null,

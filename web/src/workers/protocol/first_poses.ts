@@ -12,8 +12,12 @@ export interface FirstPosesProtocol {
   plan: { input: PlanInput; output: PlanState; progress: never };
   /** Takes what came of a step; gives the next. */
   planned: { input: StepAnswer; output: PlanState; progress: never };
+  /** Distances in mm of the libraries that a component is looked for with, in the order in which they are tried. */
+  distances: { input: DistancesInput; output: readonly number[]; progress: never };
   /** What frames are searched with, until the next one. */
   openSearch: { input: SearchInput; output: null; progress: never };
+  /** Another library for that, as of another distance. They are numbered as they were given, from 0. */
+  addLibrary: { input: { readonly library: Uint8Array<ArrayBuffer> }; output: null; progress: never };
   /** Whether metal is bright in a frame in which the component is known. */
   isBright: { input: FramePixels & { readonly pose: PoseNumbers }; output: boolean; progress: never };
   /** Looks for the component in a frame; null where it is nowhere. */
@@ -63,6 +67,8 @@ export interface PlanStep {
   readonly search: 'whole' | 'joint' | 'beside' | 'follow';
   /** Where a whole frame is searched. */
   readonly places: Places;
+  /** About how far away the component is, mm, where another one tells that. */
+  readonly depth: number | null;
   /** The pose that is known there: of the other component, or of the one that is to be followed. */
   readonly known: PoseNumbers | null;
 }
@@ -73,6 +79,14 @@ export type Places = 'shaped' | 'dark' | 'all';
 /** What came of a step: of a search, or of following. */
 export type StepAnswer = { readonly found: Discovery | null } | { readonly ends: Float64Array<ArrayBuffer> };
 
+export interface DistancesInput {
+  readonly camera: CameraInput;
+  /** Mm, where a person or the study says it. */
+  readonly told: number | null;
+  /** About how far away the component is, mm, where that is known. */
+  readonly depth: number | null;
+}
+
 export interface SearchInput extends Member {
   readonly other: Member | null;
   readonly camera: CameraInput;
@@ -82,6 +96,8 @@ export interface SearchInput extends Member {
 }
 
 export interface FindInput {
+  /** Number of the library that the frame is compared with. */
+  readonly library: number;
   readonly bright: boolean;
   /** The pose of the joint's other component, and whether the joint tells where this one is. */
   readonly beside: { readonly pose: PoseNumbers; readonly inJoint: boolean } | null;

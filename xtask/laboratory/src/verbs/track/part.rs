@@ -23,10 +23,6 @@ use crate::files::{Component, Film, MaskBuffer, Role, grey, other_shape};
 use crate::finding::{Built, ViewOptions, axes_of, build_library, covered};
 use crate::options::Pair;
 
-/// Distances of libraries where nobody tells it, in usual ones.
-const FARTHER: f64 = 1.3;
-const NEARER: f64 = 0.75;
-
 /// A component that is followed.
 pub(super) struct Part<'s> {
     /// Its number among those of the study.
@@ -217,27 +213,13 @@ impl<'s> Part<'s> {
         self.model.as_model()
     }
 
-    /// Distances of libraries, mm: one where the calibration or the study tells it, else two, each of which serves parts from
-    /// three quarters of it to a third more.
-    pub(super) fn distances(&self) -> Vec<f64> {
+    /// Distances of libraries, mm, with their numbers: those that serve a part which is about so far away, mm, where that is known.
+    pub(super) fn distances(&self, depth: Option<f64>) -> Vec<(usize, f64)> {
         let told = self.component.distance_mm;
-        let usual = self.calibration.expected_distance();
-        match (told, self.calibration) {
-            (Some(told), _) => vec![told],
-            (None, Calibration::CameraMatrix { .. }) => vec![FARTHER * usual, NEARER * usual],
-            (None, _) => vec![usual],
-        }
-    }
-
-    /// Those with their numbers; the one alone that serves a part which is about so far away, mm, where that is known.
-    pub(super) fn distances_near(&self, depth: Option<f64>) -> Vec<(usize, f64)> {
-        let mut all: Vec<(usize, f64)> = self.distances().into_iter().enumerate().collect();
-        if let Some(depth) = depth {
-            let off = |(_, distance): &(usize, f64)| (distance / depth).ln().abs();
-            all.sort_by(|one, other| off(one).total_cmp(&off(other)));
-            all.truncate(1);
-        }
-        all
+        let wanted = self.calibration.search_distances(told, depth);
+        let all = self.calibration.search_distances(told, None);
+        let numbered = all.into_iter().enumerate();
+        numbered.filter(|(_, one)| wanted.contains(one)).collect()
     }
 
     /// The library for one of the distances, of all views or of those that the study asks for; built when it is first wanted.

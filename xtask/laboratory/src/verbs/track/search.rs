@@ -41,8 +41,8 @@ pub(super) fn clicked(
         };
         let knee = knee.as_ref();
         let mut found: Option<FramePose> = None;
-        let distances = part.distances();
-        for (number, &distance) in distances.iter().enumerate() {
+        let distances = part.distances(None);
+        for &(number, distance) in &distances {
             let bytes = part.library(number, distance)?;
             let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
             let answers = answers(run, part, &mut clicker, frame, at, knee)?;
@@ -51,8 +51,8 @@ pub(super) fn clicked(
             found = one.filter(better).or(found);
         }
         // Where nobody told a distance the farthest library is not the last word.
-        if let (None, [farthest, _, ..]) = (&found, distances.as_slice()) {
-            let bytes = part.library(0, *farthest)?;
+        if let (None, &[(number, farthest), _, ..]) = (&found, distances.as_slice()) {
+            let bytes = part.library(number, farthest)?;
             let mut clicker = Clicker::open(bytes, part.model(), part.camera)?.or_farther();
             let answers = answers(run, part, &mut clicker, frame, at, knee)?;
             found = best(run, part, frame, &answers, knee)?;
@@ -130,7 +130,7 @@ pub(super) fn searched(
         };
         let unknown = unknown.as_ref().map(MaskBuffer::mask);
         let middle = beside.map(|beside| beside.pose.transform(&beside.part.middle()));
-        for (number, distance) in part.distances_near(depth) {
+        for (number, distance) in part.distances(depth) {
             run.say(format!(
                 "{} frame {}: compared with views from {distance:.0} mm",
                 part.name(),

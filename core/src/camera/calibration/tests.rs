@@ -1,0 +1,144 @@
+use super::*;
+use std::string::ToString;
+
+const MATRIX: &str = "image size\r\n1024,768\r\n\r\ncamera matrix\r\n3200,0,510.5\r\n0,3180,380\r\n0,0,1\r\n\r\n\
+    rotation\r\n0,-1,0\r\n1,0,0\r\n0,0,1\r\n\r\ntranslation\r\n1\r\n-2\r\n3.5\r\n";
+
+#[test]
+fn jt_intcalib_is_read_and_written() {
+    let text = "JT_INTCALIB\n1198\n0\n-1.5\n0.373\n";
+    let calibration = Calibration::parse(text).expect("valid");
+    assert_eq!(calibration.to_string(), text);
+    assert_eq!(calibration.principal_distance(), Some(1198.0));
+    let camera = calibration.camera(1024, 1024).expect("valid");
+    assert_eq!(camera.focal(), [1198.0 / 0.373; 2]);
+    assert_eq!(camera.principal_point(), [512.0, 512.0 + 1.5 / 0.373]);
+    let spaced = "\u{feff}JT_INTCALIB \r\n\r\n 1198 \r\n0\r\n -1.5,\r\n.373";
+    assert_eq!(Calibration::parse(spaced), Ok(calibration));
+    let later = text.replace("JT_", "JTA_");
+    assert_eq!(Calibration::parse(&later), Ok(calibration));
+}
+
+#[test]
+fn a_part_at_a_distance_that_nobody_tells_is_looked_for_from_two() {
+    let matrix = Calibration::parse(MATRIX).expect("valid");
+    let usual = matrix.expected_distance();
+    let [far, near] = [1.3 * usual, 0.75 * usual];
+    assert_eq!(matrix.search_distances(None, None), [far, near]);
+    // Beyond their middle in the logarithm the other one serves.
+    let middle = libm::sqrt(far * near);
+    let at = |depth| matrix.search_distances(None, Some(depth));
+    assert_eq!(at(middle + 1.0), [far]);
+    assert_eq!(at(middle - 1.0), [near]);
+    assert_eq!(matrix.search_distances(Some(812.0), Some(9e3)), [812.0]);
+    let stated = Calibration::parse("JT_INTCALIB\n1200\n0\n0\n0.3\n").expect("valid");
+    assert_eq!(stated.search_distances(None, Some(500.0)), [1080.0]);
+}
+
+#[test]
+fn a_camera_matrix_counts_from_pixel_centres() {
+    let calibration = Calibration::parse(MATRIX).expect("valid");
+    let camera = calibration.camera(1024, 768).expect("the file's own size");
+    assert_eq!(camera.focal(), [3200.0, 3180.0]);
+    assert_eq!(camera.principal_point(), [511.0, 380.5]);
+    let again = Calibration::parse(&calibration.to_string());
+    assert_eq!(again, Ok(calibration));
+    let Calibration::CameraMatrix { laboratory, .. } = calibration else {
+        panic!("a camera matrix")
+    };
+    assert_eq!(laboratory.translation, [1.0, -2.0, 3.5]);
+    assert_eq!(
+        calibration.camera(1024, 1024),
+        Err(CalibrationError::FrameSize {
+            calibration: (1024, 768),
+            frame: (1024, 1024)
+        })
+    );
+}
+
+#[test]
+fn a_matrix_without_a_laboratory_and_with_a_row_of_translation_is_read() {
+    let bare = MATRIX.split("rotation").next().expect("text");
+    assert!(Calibration::parse(bare).is_ok());
+    let row = MATRIX.replace("1\r\n-2\r\n3.5\r\n", "1,-2,3.5");
+    assert_eq!(Calibration::parse(&row), Calibration::parse(MATRIX));
+}
+
+#[test]
+fn faults_are_named() {
+    let parse = |text: &str| {
+        Calibration::parse(text)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    for (text, words) in [
+        ("", "neither with JT_INTCALIB"),
+        ("JT_EULER_312\n1", "neither with JT_INTCALIB"),
+        ("JT_INTCALIB\n1198\n0\n0\n", "ends before its pixel pitch"),
+        (
+            "JT_INTCALIB\n1198\nzero\n0\n0.3",
+            "line 3 of the calibration, the principal point x",
+        ),
+        ("JT_INTCALIB\nNaN\n0\n0\n0.3", "principal distance is NaN"),
+        ("JT_INTCALIB\n0\n0\n0\n0.3", "principal distance is 0"),
+        ("JT_INTCALIB\n1198\n0\ninf\n0.3", "principal point y is inf"),
+        ("JT_INTCALIB\n1198\n0\n0\n-0.3", "pixel pitch is -0.3"),
+        (
+            "image size\n1024,1024\ncamera matrix\n1,2,3",
+            "camera matrix",
+        ),
+    ] {
+        let error = parse(text).expect_err(text);
+        assert!(error.contains(words), "{text:?}: {error}");
+    }
+    for size in [
+        "1024.9,768",
+        "1024,767.5",
+        "nan,768",
+        "-1024,768",
+        "1024,inf",
+        "1e30,768",
+    ] {
+        let error = parse(&MATRIX.replace("1024,768", size)).expect_err(size);
+        assert!(
+            error.contains("line 2 of the calibration, the image size"),
+            "{error}"
+        );
+    }
+    assert!(parse(&MATRIX.replace("1024,768", "1024.0,768")).is_ok());
+    assert!(parse(&MATRIX.replace("0,3180", "2,3180")).is_err());
+    assert!(parse(&MATRIX.replace("3200", "nan")).is_err());
+    let parts =
+        parse(&MATRIX.replace("3200", "3.1").replace("3180", "3.1")).expect_err("not in pixels");
+    assert!(
+        parts.contains("is 3.1; it must be at least a tenth"),
+        "{parts}"
+    );
+    for (focal, words) in [("3200", "x runs the other way"), ("3180", "y runs")] {
+        let error = parse(&MATRIX.replace(focal, &std::format!("-{focal}"))).expect_err(focal);
+        assert!(error.contains(words), "{error}");
+        assert!(error.contains(&std::format!("-{focal}")), "{error}");
+    }
+    assert!(parse(&MATRIX.replace("0,-1,0", "0,1,0")).is_err());
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused_or_still_the_same() {
+    let whole = Calibration::parse(MATRIX).expect("valid");
+    for length in 0..MATRIX.len() {
+        // What is left may end within the last number, or before an optional part.
+        if let Ok(Calibration::CameraMatrix { focal, centre, .. }) =
+            Calibration::parse(&MATRIX[..length])
+        {
+            let Calibration::CameraMatrix {
+                focal: f,
+                centre: c,
+                ..
+            } = whole
+            else {
+                panic!("a camera matrix")
+            };
+            assert_eq!((focal, centre), (f, c), "{length}");
+        }
+    }
+}
