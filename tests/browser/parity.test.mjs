@@ -15,7 +15,7 @@ import { demoFile } from './support/study.mjs';
  * @typedef {{ name: string, model: string, outline: [number, number][], verdict: string, because: string, chosen: number,
  *   candidates: number[][] }} Case numbers of a pose as in a `.jts` file
  * @typedef {{ model: string, outline: [number, number][], given: number[], pose: number[], words: string, constants: number[],
- *   corrected: number[] }} OnFrame
+ *   corrected: number[], soft: { reach: number, words: string, pose: number[] } }} OnFrame
  * @typedef {{ calibration: string, side: number, libraries: Record<string, string>, cases: Case[], image: OnFrame }} Native
  */
 
@@ -45,29 +45,30 @@ test('the npm module finds what the native program finds', { timeout: 3 * PATIEN
     if (name === native.image.model) {
       const module = await from('node.js');
       await t.test(`${name}: on a grey frame, by its film`, () => onFrame(core, matcher, implant, module.estimateFilm, native));
+      await t.test(`${name}: on a soft frame, whose film is read in squares`, () => onSoftFrame(core, implant, module.estimateFilm, native));
     }
     matcher.free();
     implant.close();
   }
 });
 
-/** Drawn as the native program draws it: dark by how many of the 25 pixels round each lie inside. @param {any} core @param {Native} native */
-function frameOf(core, { side, image }) {
+/** Drawn as the native program draws it: dark by how many of the pixels round each lie inside. @param {any} core @param {Native} native @param {number} reach */
+function frameOf(core, { side, image }, reach) {
   const mask = core.maskOfOutline(Float64Array.from(image.outline.flat()), side, side);
   return Uint8Array.from(mask, (/** @type {number} */ _, /** @type {number} */ number) => {
     const [column, row] = [number % side, Math.floor(number / side)];
     let covered = 0;
-    for (let down = Math.max(0, row - 2); down <= Math.min(side - 1, row + 2); down++) {
-      for (let right = Math.max(0, column - 2); right <= Math.min(side - 1, column + 2); right++) covered += mask[down * side + right];
+    for (let down = Math.max(0, row - reach); down <= Math.min(side - 1, row + reach); down++) {
+      for (let right = Math.max(0, column - reach); right <= Math.min(side - 1, column + reach); right++) covered += mask[down * side + right];
     }
-    return 210 - 6 * covered;
+    return 210 - Math.floor((150 * covered) / (2 * reach + 1) ** 2);
   });
 }
 
 /** The film given, the film estimated, and the pose by either. @param {any} core @param {any} matcher @param {any} implant @param {any} estimateFilm @param {Native} native */
 function onFrame(core, matcher, implant, estimateFilm, native) {
   const { calibration, side, image: wanted } = native;
-  const pixels = frameOf(core, native);
+  const pixels = frameOf(core, native, 2);
   const [curvature, blur, attenuation] = wanted.given;
   const { pose } = implant.pose(wanted.outline, { image: pixels, film: { curvature, blur, attenuation } });
   assert.deepEqual([pose.x, pose.y, pose.z, pose.zRot, pose.xRot, pose.yRot], wanted.pose);
@@ -81,6 +82,16 @@ function onFrame(core, matcher, implant, estimateFilm, native) {
   const match = answer.takeMatch();
   assert.deepEqual(Array.from(match.pose(0)), wanted.corrected);
   for (const held of [match, answer, hidden, frame]) held.free();
+}
+
+/** A frame whose film is read in squares of pixels. @param {any} core @param {any} implant @param {any} estimateFilm @param {Native} native */
+function onSoftFrame(core, implant, estimateFilm, native) {
+  const { outline, soft } = native.image;
+  const pixels = frameOf(core, native, soft.reach);
+  const film = estimateFilm([{ implant, image: pixels, pose: implant.pose(outline, { image: pixels }).candidates[0].pose }]);
+  assert.equal(film.words, soft.words);
+  const [{ pose }] = implant.pose(outline, { image: pixels, film }).candidates;
+  assert.deepEqual([pose.x, pose.y, pose.z, pose.zRot, pose.xRot, pose.yRot], soft.pose);
 }
 
 /** What the page reads: how many poses there are, which is chosen, and how far it is to be trusted. @param {any} core @param {any} matcher @param {Native} native @param {Case} wanted */

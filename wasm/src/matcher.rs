@@ -15,21 +15,24 @@ pub use landscape::{Landscape, ViewPose};
 pub use nearest::{Canonical, NearestView};
 pub use one_click::OneClick;
 
+use fluoropose::camera::Camera;
 use fluoropose::canonical::reverse;
-use fluoropose::finder::{FinderBuffers, Goal, Verdict};
+use fluoropose::film::FilmModel;
+use fluoropose::finder::{FinderBuffers, Found, Goal, Verdict};
 use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{Mask, Word};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, locate};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity, polarity_inside};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, polarity_inside};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::{Candidate, Match};
+use crate::squares::{look_in_squares, of_pixels};
 use crate::working_model::{Ranked, WorkingModel};
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -50,6 +53,46 @@ impl OpenLibrary {
     /// The core's sentence about what is damaged.
     pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, JsError> {
         Self::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))
+    }
+}
+
+/// A frame whose film is read in squares of pixels.
+struct Squares<'f> {
+    frame: &'f FrameImage,
+    polarity: Polarity,
+    film: FilmModel,
+}
+
+impl Squares<'_> {
+    /// Brings what was found in the frame's own pixels to where its film puts the edges.
+    ///
+    /// # Errors
+    /// The core's sentence about why none can be corrected.
+    fn correct(
+        &self,
+        found: &mut Found,
+        model: &mut WorkingModel,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<(), JsError> {
+        let side = self.film.constants.square_px;
+        let unknown = silhouette.unknown().map(Mask::words);
+        look_in_squares(
+            side,
+            self.frame,
+            camera,
+            unknown,
+            |frame, camera, unknown| {
+                let image = ImageTarget {
+                    frame,
+                    unknown,
+                    polarity: self.polarity,
+                    film: Some(self.film),
+                };
+                let view = CameraView::only(camera, image);
+                model.correct_found(found, view)
+            },
+        )
     }
 }
 
@@ -168,7 +211,7 @@ impl Matcher {
         traced: &Traced,
         around: &Surroundings,
     ) -> Result<Match, JsError> {
-        self.refine(traced, Goal::Outline, around)
+        self.refine(traced, Goal::Outline, None, around)
     }
 
     /// The same, and then brings the poses onto the edges of the grey frame that was traced. `film` is what the film makes of the
@@ -187,6 +230,7 @@ impl Matcher {
         around: &Surroundings,
     ) -> Result<Match, JsError> {
         let film = film_model(film)?;
+        let whole = frame;
         frame.look(|frame| {
             traced.look(|silhouette| {
                 let polarity = bright_implant
@@ -196,9 +240,15 @@ impl Matcher {
                     // What hides a side has edges of its own.
                     unknown: silhouette.unknown(),
                     polarity,
-                    film,
+                    film: of_pixels(film),
                 };
-                self.refine(traced, Goal::Image(image), around)
+                let squares = film.filter(|film| film.constants.square_px > 1);
+                let squares = squares.map(|film| Squares {
+                    frame: whole,
+                    polarity,
+                    film,
+                });
+                self.refine(traced, Goal::Image(image), squares, around)
             })
         })
     }
@@ -247,6 +297,7 @@ impl Matcher {
         &mut self,
         traced: &Traced,
         goal: Goal<'_>,
+        squares: Option<Squares<'_>>,
         around: &Surroundings,
     ) -> Result<Match, JsError> {
         traced.look(|silhouette| {
@@ -255,7 +306,10 @@ impl Matcher {
                 return self.match_outline(traced);
             };
             let camera = traced.camera();
-            let found = model.find(library, &camera, silhouette, goal)?;
+            let mut found = model.find(library, &camera, silhouette, goal)?;
+            if let Some(squares) = squares {
+                squares.correct(&mut found, model, &camera, silhouette)?;
+            }
             let chosen = Chosen::of(&found, around);
             let mut ranked = Vec::new();
             for candidate in &found.candidates {

@@ -268,6 +268,28 @@ impl WorkingModel {
         Ok(found.map_err(sentence)?.into_iter().collect())
     }
 
+    /// Brings what was found to where its film puts the edges of a frame.
+    ///
+    /// # Errors
+    /// The core's sentence about why none can be corrected.
+    pub(crate) fn correct_found(
+        &mut self,
+        found: &mut Found,
+        view: CameraView<'_>,
+    ) -> Result<(), JsError> {
+        let Target::Image(image) = view.target else {
+            return Ok(());
+        };
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        let (seen, options) = ((view.camera, image), RefineOptions::default());
+        // Mirror images are among them.
+        let (known, memory) = (&found.candidates, &mut memory);
+        let corrected = correct_candidates(&model, seen, &[], known, options, memory);
+        found.candidates = corrected.map_err(sentence)?;
+        Ok(())
+    }
+
     /// A pose that was found on a frame, refined there or put where its film puts the edges, and its mirror images.
     ///
     /// # Errors

@@ -26,6 +26,9 @@ pub struct SquareChoice {
 }
 
 impl SquareChoice {
+    /// Of each component so many frames are read, the first whose pose is known.
+    pub const FRAMES: usize = 3;
+
     /// Of a film whose blur nobody states, or of one with this blur, pixels of the file: then nothing is to be read.
     #[must_use]
     pub fn new(stated_blur_px: Option<f64>) -> Self {

@@ -4,6 +4,8 @@
 use alloc::vec::Vec;
 
 use super::frame::{Frame, FrameError, Pixel};
+#[cfg(feature = "alloc")]
+use super::mask::{Mask, MaskMut, Word, words_needed};
 
 impl<P: Pixel> Frame<'_, P> {
     /// Columns and rows of the frame in squares of `side` x `side` pixels: those at the end that fill none are left out. A side of 0 counts as 1.
@@ -53,6 +55,25 @@ impl<P: Pixel> Frame<'_, P> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl Mask<'_> {
+    /// Columns, rows and words of the mask in squares of `side` x `side` pixels: those of which a pixel is set. A side of 0 counts as 1.
+    #[must_use]
+    pub fn reduced(&self, side: usize) -> (usize, usize, Vec<Word>) {
+        let side = side.max(1);
+        let (width, height) = (self.width() / side, self.height() / side);
+        let mut words = alloc::vec![0; words_needed(width, height)];
+        if let Ok(mut squares) = MaskMut::new(&mut words, width, height) {
+            for row in 0..height * side {
+                for column in (0..width * side).filter(|&column| self.get(column, row)) {
+                    squares.set(column / side, row / side, true);
+                }
+            }
+        }
+        (width, height, words)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,6 +98,21 @@ mod tests {
         let short = frame.reduce(2, &mut squares[..3]);
         let (needed, given) = (4, 3);
         assert_eq!(short, Err(FrameError::BufferTooShort { needed, given }));
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn a_square_is_set_where_a_pixel_of_it_is() {
+        let mut words = std::vec![0; words_needed(7, 5)];
+        let mut mask = MaskMut::new(&mut words, 7, 5).expect("fits");
+        for (column, row) in [(1, 0), (4, 3), (6, 1), (0, 4)] {
+            mask.set(column, row, true);
+        }
+        let (width, height, squares) = mask.as_mask().reduced(2);
+        let squares = Mask::new(&squares, width, height).expect("fits");
+        let set = |number: &usize| squares.get(number % 3, number / 3);
+        let found: Vec<usize> = (0..6).filter(set).collect();
+        assert_eq!((width, height, &found[..]), (3, 2, &[0, 5][..]));
     }
 
     properties! {

@@ -1,9 +1,9 @@
-import { FilmStudy } from './pkg/core/fluoropose_wasm.js';
+import { type FilmFacts, FilmSquares, FilmStudy, statedFilm } from './pkg/core/fluoropose_wasm.js';
 import type { FilmConstants, Grey, Hints, Pose, StatedFilm } from './types.js';
 
 /** Who reads profiles across the outline of its model: an `Implant`. */
 export interface Reader {
-  profiles(image: Grey, pose: Pose): Float32Array;
+  profiles(image: Grey, pose: Pose, squarePx?: number): Float32Array;
 }
 
 /** A frame in which an implant has a pose, which need only be near. */
@@ -15,6 +15,8 @@ export interface FilmSource {
 
 /** The core tells so many implants apart. */
 const MOST = 2;
+/** Of each implant so many frames tell the squares that a film is read in. */
+const FIRST = 3;
 
 /**
  * What the frames of a study tell of their film: all of one film, one or two implants. Null where they do not tell. One implant
@@ -24,18 +26,34 @@ const MOST = 2;
 export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm = {}): FilmConstants | null {
   const implants = [...new Set(sources.map(({ implant }) => implant))];
   if (implants.length > MOST) throw new Error(`A film is estimated from one or two implants, not from ${implants.length}`);
-  const study = new FilmStudy();
+  const facts = factsOf(sources, implants, squareOf(sources, implants, stated), stated);
+  if (!facts) return null;
+  const { words, blur, profiles } = facts;
+  const models = implants.flatMap((implant, number) => {
+    const model = facts.model(number);
+    return model ? [[implant, Array.from(model)] as const] : [];
+  });
+  facts.free();
+  return { words, blur, profiles, models: new Map(models) };
+}
+
+/** The side of the squares of pixels that the film is read in: 1 unless it is much finer than its blur. */
+function squareOf(sources: readonly FilmSource[], implants: readonly Reader[], stated: StatedFilm): number {
+  const first = implants.flatMap((implant) => sources.filter((source) => source.implant === implant).slice(0, FIRST));
+  const squares = new FilmSquares(stated.blur);
   try {
-    sources.forEach(({ implant, image, pose }, frame) => study.take(implants.indexOf(implant), frame, implant.profiles(image, pose)));
-    const facts = study.estimate(stated.display, stated.blur);
-    if (!facts) return null;
-    const { words, blur, profiles } = facts;
-    const models = implants.flatMap((implant, number) => {
-      const model = facts.model(number);
-      return model ? [[implant, Array.from(model)] as const] : [];
-    });
-    facts.free();
-    return { words, blur, profiles, models: new Map(models) };
+    for (let side = squares.wanted; side !== undefined; side = squares.wanted) squares.take(factsOf(first, implants, side, stated));
+    return squares.side;
+  } finally {
+    squares.free();
+  }
+}
+
+function factsOf(sources: readonly FilmSource[], implants: readonly Reader[], side: number, { display, blur }: StatedFilm): FilmFacts | undefined {
+  const study = FilmStudy.inSquares(side);
+  try {
+    sources.forEach(({ implant, image, pose }, frame) => study.take(implants.indexOf(implant), frame, implant.profiles(image, pose, side)));
+    return study.estimate(display, blur);
   } finally {
     study.free();
   }
@@ -45,5 +63,5 @@ export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm 
 export function filmNumbers(film: Hints['film'], implant: object): Float64Array {
   if (!film) return new Float64Array();
   if ('models' in film) return Float64Array.from(film.models.get(implant) ?? []);
-  return Float64Array.of(film.curvature, film.blur, film.attenuation);
+  return statedFilm(film.curvature, film.blur, film.attenuation);
 }

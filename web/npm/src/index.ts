@@ -81,14 +81,14 @@ export class Implant {
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
   }
 
-  /** Profiles of a frame across the model's outline at a pose: what `estimateFilm` reads. */
-  profiles(image: Grey, pose: Pose): Float32Array {
+  /** Profiles of a frame, in squares with sides of so many pixels, across the model's outline at a pose: what `estimateFilm` reads. */
+  profiles(image: Grey, pose: Pose, squarePx = 1): Float32Array {
     checkPose(pose, 'profiles: pose');
     checkImage(image, this.#frame, 'profiles');
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
     try {
-      return withImage(image, this.#frame, (frame) => this.#matcher.filmProfiles(frame, hidden, numbers(pose), 1));
+      return withImage(image, this.#frame, (frame) => this.#matcher.filmProfiles(frame, hidden, numbers(pose), squarePx));
     } finally {
       hidden.free();
     }

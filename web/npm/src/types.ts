@@ -91,7 +91,7 @@ export interface FilmConstants {
   readonly blur: number;
   /** Profiles across outlines that were believed. */
   readonly profiles: number;
-  /** Of each implant that was seen: curvature, blur and attenuation, and their covariance row by row. */
+  /** Of each implant that was seen, as `pose` takes it: curvature, blur and attenuation, their covariance, and what squares of pixels it was read in. */
   readonly models: ReadonlyMap<object, readonly number[]>;
 }
 

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
+use fluoropose::film::{
+    FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm, SquareChoice,
+};
 use fluoropose::finder::{Candidate, FinderBuffers, Goal, correct_candidates, find};
 use fluoropose::image::contour::Outline;
 use fluoropose::image::frame::Frame;
@@ -25,21 +27,25 @@ const GIVEN: [f64; 3] = [0.004, 0.8, 0.3];
 /// Profiles that are read.
 const PROFILES: usize = 96;
 
-/// A frame that anybody draws alike, of whole numbers: dark where the outline is filled, by how many of the 25 pixels round each
-/// are.
-fn frame_of(mask: &Mask<'_>) -> Vec<u8> {
+/// So far round each pixel a sharp and a soft frame look, pixels.
+const SHARP: usize = 2;
+const SOFT: usize = 4;
+
+/// A frame that anybody draws alike, of whole numbers: dark where the outline is filled, by how many of the pixels round each are.
+fn frame_of(mask: &Mask<'_>, reach: usize) -> Vec<u8> {
+    let wide = 2 * reach + 1;
     let mut pixels = vec![0; SIDE * SIDE];
     for (number, pixel) in pixels.iter_mut().enumerate() {
         let (column, row) = (number % SIDE, number / SIDE);
         let inside = |at: usize| {
             let (right, down) = (
-                (column + at % 5).wrapping_sub(2),
-                (row + at / 5).wrapping_sub(2),
+                (column + at % wide).wrapping_sub(reach),
+                (row + at / wide).wrapping_sub(reach),
             );
             right < SIDE && down < SIDE && mask.get(right, down)
         };
-        let covered = (0..25).filter(|&at| inside(at)).count();
-        *pixel = 210 - 6 * covered as u8;
+        let covered = (0..wide * wide).filter(|&at| inside(at)).count();
+        *pixel = 210 - (150 * covered / (wide * wide)) as u8;
     }
     pixels
 }
@@ -56,14 +62,9 @@ struct OnFrame {
 
 fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
     let camera = calibration().camera(SIDE, SIDE).expect("a camera");
-    let pixels = frame_of(mask);
+    let pixels = frame_of(mask, SHARP);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-    let image = |film| ImageTarget {
-        frame: &frame,
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film,
-    };
+    let image = |film| dark(&frame, film);
     let library = Library::open(&part.library).expect("a library");
     let model = part.model.as_model();
     let planes = symmetry_planes(model.mesh());
@@ -82,7 +83,7 @@ fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
     let first = found.expect("candidates").candidates[0];
 
     let (best, memory) = (first.pose, &mut memory.refine);
-    let film = film_at(&model, &camera, &best, &image(None), memory);
+    let film = film_at(&model, &camera, &best, &image(None), 1, memory).expect("told");
     // As it was kept: six numbers.
     let kept = Candidate {
         refined: Some(Refined::at(EulerPose::from(best).into())),
@@ -102,14 +103,65 @@ fn film_at(
     camera: &Camera,
     pose: &Pose,
     image: &ImageTarget<'_>,
+    side: usize,
     memory: &mut RefineMemory<'_>,
-) -> FilmEstimate {
+) -> Option<FilmEstimate> {
     let mut profiles = vec![FilmProfile::default(); PROFILES];
     let read = film_profiles(model, camera, pose, image, (0, 0), memory, &mut profiles);
     profiles.truncate(read.expect("drawn"));
-    let mut pool = FilmPool::default();
+    let mut pool = FilmPool::in_squares(side);
     pool.take(0, 0, profiles);
-    pool.estimate(GivenFilm::default()).expect("told")
+    pool.estimate(GivenFilm::default())
+}
+
+/// What is found on a soft frame, whose film is read in squares of two pixels: that, and the pose by it.
+fn look_in_squares(part: &Part, mask: &Mask<'_>) -> (FilmEstimate, Pose) {
+    let camera = calibration().camera(SIDE, SIDE).expect("a camera");
+    let pixels = frame_of(mask, SOFT);
+    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+    let library = Library::open(&part.library).expect("a library");
+    let model = part.model.as_model();
+    let planes = symmetry_planes(model.mesh());
+    let component = Component {
+        library: &library,
+        model: &model,
+        planes: &planes,
+    };
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let (silhouette, options) = (Silhouette::from(mask), RefineOptions::default());
+    let goal = Goal::Image(dark(&frame, None));
+    let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
+    let candidates = found.expect("candidates").candidates;
+
+    let memory = &mut memory.refine;
+    let mut choice = SquareChoice::new(None);
+    let mut told = None;
+    while let Some(side) = choice.wanted() {
+        let (wide, squares) = (SIDE / side, frame.reduced(side).expect("fits"));
+        let squares = Frame::new(&squares, wide, wide, wide).expect("fits");
+        let camera = camera.reduced(side).expect("fits");
+        let best = candidates[0].pose;
+        let film = film_at(&model, &camera, &best, &dark(&squares, None), side, memory);
+        choice.take(film.as_ref().map(|film| film.constants.blur_px));
+        let Some(film) = film.filter(|_| choice.square_px() == side) else {
+            continue;
+        };
+        let seen = (&camera, dark(&squares, Some(film.model(0))));
+        let corrected = correct_candidates(&model, seen, &[], &candidates, options, memory);
+        told = Some((film, corrected.expect("corrected")[0].pose));
+    }
+    assert_eq!(choice.square_px(), 2);
+    told.expect("finer than its blur")
+}
+
+fn dark<'f>(frame: &'f Frame<'f, u8>, film: Option<FilmModel>) -> ImageTarget<'f> {
+    ImageTarget {
+        frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film,
+    }
 }
 
 /// The same as JSON.
@@ -141,6 +193,11 @@ pub(super) fn found(part: &Part, case: &Case) -> String {
     let _ = writeln!(text, "    \"pose\": {},", six(best));
     let _ = writeln!(text, "    \"words\": \"{film}\",");
     let _ = writeln!(text, "    \"constants\": {constants:?},");
-    let _ = write!(text, "    \"corrected\": {}", six(corrected));
+    let _ = writeln!(text, "    \"corrected\": {},", six(corrected));
+    let (film, pose) = look_in_squares(part, &mask.mask());
+    let _ = writeln!(text, "    \"soft\": {{");
+    let _ = writeln!(text, "      \"reach\": {SOFT},");
+    let _ = writeln!(text, "      \"words\": \"{film}\",");
+    let _ = write!(text, "      \"pose\": {}\n    }}", six(pose));
     format!("{{\n{text}\n  }}")
 }

@@ -106,6 +106,7 @@ impl Posing<'_> {
             sequence,
             edges: self.edges,
             found,
+            square_px: 1,
         };
         bring_onto_frames(&mut [filmed], &Stated::default()).words
     }

@@ -140,7 +140,7 @@ pub fn grey(frame: &GreyFrame) -> Result<Box<dyn Grey + '_>> {
 ///
 /// # Errors
 /// For a frame without pixels, or smaller than a square.
-pub(super) fn reduced(frame: &GreyFrame, side: usize) -> Result<GreyFrame> {
+pub fn reduced(frame: &GreyFrame, side: usize) -> Result<GreyFrame> {
     let (width, height) = (frame.width as usize, frame.height as usize);
     let pixels = match &frame.pixels {
         Pixels::U8(pixels) => Pixels::U8(Frame::new(pixels, width, height, width)?.reduced(side)?),

@@ -1,9 +1,8 @@
 //! The constants of a film from the frames at hand, and poses corrected by them.
 
-use anyhow::{Context, Result};
-use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::pool::profiles_of_each;
-use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
+use anyhow::Result;
+use fluoropose::camera::Camera;
+use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, GivenFilm};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{
     Candidate, Limits, Verdict, correct_candidates, judge_fit, look_around, onto_target,
@@ -12,18 +11,19 @@ use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
-    CameraView, ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
+    CameraView, ImageTarget, Polarity, RefineBuffers, RefineOptions, polarity_at,
 };
 use fluoropose_report::plus_minus;
 use rayon::prelude::*;
 
 use super::beside::{Beside, hidden};
 use super::film::FrameFound;
-use super::finder::{EdgeOptions, image};
+use super::film_squares::{choose_squares, read};
+use super::finder::EdgeOptions;
 use super::misfits::Misfits;
 use crate::files::{MaskBuffer, StatedFilm};
 use crate::options::{Shown, most};
-use crate::sequence::{Seen, Sequence};
+use crate::sequence::Sequence;
 
 /// Rounds of estimating the film from poses and correcting these by it.
 const ROUNDS: usize = 2;
@@ -40,6 +40,8 @@ pub struct Filmed<'f> {
     pub edges: EdgeOptions,
     /// Poses that the outlines led to, and then those on the frames.
     pub found: &'f mut Vec<FrameFound>,
+    /// Side of the squares that the film is read in, pixels; 1 until the frames tell.
+    pub square_px: usize,
 }
 
 /// What is known of the film that some components are on.
@@ -57,6 +59,15 @@ pub enum Stated {
     Part(GivenFilm),
     /// All of its constants, and what it makes of each component, where its attenuation is stated.
     Whole(FilmConstants, Vec<Option<FilmModel>>),
+}
+
+/// Films of pixels as they are seen in squares.
+pub fn in_squares(models: &[Option<FilmModel>], side: usize) -> Vec<Option<FilmModel>> {
+    let seen = |film: &FilmModel| FilmModel {
+        constants: film.constants.in_squares(side),
+        ..*film
+    };
+    models.iter().map(|film| film.as_ref().map(seen)).collect()
 }
 
 impl Default for Stated {
@@ -82,6 +93,7 @@ impl Stated {
 /// themselves, unless it is stated.
 pub fn bring_onto_frames(parts: &mut [Filmed<'_>], stated: &Stated) -> KnownFilm {
     tell_polarity(parts);
+    choose_squares(parts, stated);
     let mut known = film_of(parts, stated);
     for (part, film) in parts.iter_mut().zip(&known.models) {
         *part.found = part.brought(*film);
@@ -142,25 +154,6 @@ fn beside_each<'f>(parts: &[Filmed<'f>]) -> Vec<Vec<Beside<'f>>> {
     (0..parts.len()).map(others).collect()
 }
 
-/// Calls `look` with a frame in which the components beside the one that is looked at are hidden.
-fn look_beside<T>(
-    sequence: &Sequence<'_>,
-    frame: usize,
-    beside: &[Beside<'_>],
-    (edges, film): (EdgeOptions, FilmModel),
-    look: impl FnOnce(ImageTarget<'_>) -> Result<T>,
-) -> Result<T> {
-    sequence.look(frame, |seen| {
-        let unknown = seen.silhouette.unknown();
-        let hidden = hidden(beside, &sequence.camera(), frame, unknown)?;
-        let unknown = hidden.as_ref().map(MaskBuffer::mask);
-        look(ImageTarget {
-            unknown: unknown.as_ref(),
-            ..image(seen, edges, Some(film))?
-        })
-    })
-}
-
 /// Looks around poses that leave more than is usual on their film.
 fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
     let best = |found: &FrameFound| Some(found.candidates.first()?.misfit());
@@ -183,17 +176,23 @@ fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
     }
 }
 
+/// Side of the squares that the film is read in, pixels.
+fn square_px(parts: &[Filmed<'_>]) -> usize {
+    parts.first().map_or(1, |part| part.square_px)
+}
+
 fn film_of(parts: &[Filmed<'_>], stated: &Stated) -> KnownFilm {
     let given = match stated {
         Stated::Part(given) => *given,
         Stated::Whole(constants, models) => {
             return KnownFilm {
-                models: models.clone(),
+                models: in_squares(models, square_px(parts)),
                 words: constants.to_string(),
             };
         }
     };
-    match estimate_film(parts, given) {
+    let side = square_px(parts);
+    match read(parts, side, usize::MAX).estimate(given) {
         Some(film) => KnownFilm {
             models: (0..parts.len()).map(|part| Some(film.model(part))).collect(),
             words: words(&film, parts),
@@ -224,77 +223,21 @@ fn words(film: &FilmEstimate, parts: &[Filmed<'_>]) -> String {
     )
 }
 
-/// Estimates the constants of a film from the best poses of its components; `None` where they do not tell.
-fn estimate_film(parts: &[Filmed<'_>], given: GivenFilm) -> Option<FilmEstimate> {
-    let parts = &parts[..parts.len().min(MOST_COMPONENTS)];
-    let frames: usize = parts.iter().map(|part| part.found.len()).sum();
-    let each = profiles_of_each(frames);
-    let mut pool = FilmPool::default();
-    for (component, part) in parts.iter().enumerate() {
-        let read = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
-            let Some(best) = found.candidates.first() else {
-                return Vec::new();
-            };
-            let names = (component as u8, frame as u16);
-            let look = |seen: &Seen<'_>| part.profiles(seen, &best.pose, names, each, buffers);
-            part.sequence.look(frame, look).unwrap_or_default()
-        };
-        let frames = part.found.par_iter().enumerate();
-        let read: Vec<Vec<FilmProfile>> = frames.map_init(RefineBuffers::default, read).collect();
-        for (frame, profiles) in read.into_iter().enumerate() {
-            pool.take(component as u8, frame as u16, profiles);
-        }
-    }
-    pool.estimate(given)
-}
-
 impl Filmed<'_> {
     /// How each frame shows metal, by its best pose.
     fn polarities(&self) -> Vec<Polarity> {
-        let camera = self.sequence.camera();
         let tell = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
             let best = found.candidates.first()?;
-            let look = |seen: &Seen<'_>| {
-                let grey = seen.frame.context("there is no frame")?;
-                let mut memory = buffers.borrow(&self.model, &camera);
-                Ok(polarity_at(
-                    &self.model,
-                    &camera,
-                    &best.pose,
-                    grey,
-                    &mut memory,
-                )?)
-            };
-            self.sequence.look(frame, look).ok()
+            let told = self.see(frame, None, |camera, ImageTarget { frame, .. }| {
+                let mut memory = buffers.borrow(&self.model, camera);
+                let (model, pose) = (&self.model, &best.pose);
+                Ok(polarity_at(model, camera, pose, frame, &mut memory)?)
+            });
+            told.ok()
         };
         let frames = self.found.par_iter().enumerate();
         let told: Vec<_> = frames.map_init(RefineBuffers::default, tell).collect();
         told.into_iter().flatten().collect()
-    }
-
-    fn profiles(
-        &self,
-        seen: &Seen<'_>,
-        pose: &Pose,
-        names: (u8, u16),
-        count: usize,
-        buffers: &mut RefineBuffers,
-    ) -> Result<Vec<FilmProfile>> {
-        let camera = self.sequence.camera();
-        let image = image(seen, self.edges, None)?;
-        let mut memory = buffers.borrow(&self.model, &camera);
-        let mut profiles = vec![FilmProfile::default(); count];
-        let read = film_profiles(
-            &self.model,
-            &camera,
-            pose,
-            &image,
-            names,
-            &mut memory,
-            &mut profiles,
-        )?;
-        profiles.truncate(read);
-        Ok(profiles)
     }
 
     pub(super) fn options(&self) -> RefineOptions {
@@ -307,20 +250,18 @@ impl Filmed<'_> {
     /// The poses of outlines brought onto the edges of the frames, by the film's model where there is one. A frame that leads
     /// nowhere has no candidates, and says why.
     fn brought(&self, film: Option<FilmModel>) -> Vec<FrameFound> {
-        let camera = self.sequence.camera();
         let bring = |buffers: &mut RefineBuffers, (frame, outline): (usize, &FrameFound)| {
             let mut found = outline.clone();
             if outline.candidates.is_empty() {
                 return found;
             }
-            let brought = self.sequence.look(frame, |seen| {
-                let image = image(seen, self.edges, film)?;
-                let mut memory = buffers.borrow(&self.model, &camera);
+            let brought = self.see(frame, film, |camera, image| {
+                let mut memory = buffers.borrow(&self.model, camera);
                 let (model, options) = (&self.model, self.options());
                 let outline = &outline.candidates;
                 Ok(onto_target(
                     model,
-                    &camera,
+                    camera,
                     image,
                     outline,
                     options,
@@ -343,33 +284,22 @@ impl Filmed<'_> {
     /// Corrects all poses by the film's model, which has become better known. A frame that cannot be corrected stays as it is,
     /// and says so on standard error.
     fn correct(&mut self, film: FilmModel, beside: &[Beside<'_>]) {
-        let (camera, options) = (self.sequence.camera(), self.options());
-        let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
+        let (model, options) = (&self.model, self.options());
         let planes = symmetry_planes(model.mesh());
-        let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
+        let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
             if found.candidates.is_empty() {
-                return;
+                return None;
             }
-            let corrected = look_beside(sequence, frame, beside, (edges, film), |image| {
-                let mut memory = buffers.borrow(model, &camera);
-                let candidates = &found.candidates;
-                let seen = (&camera, image);
-                Ok(correct_candidates(
-                    model,
-                    seen,
-                    &planes,
-                    candidates,
-                    options,
-                    &mut memory,
-                )?)
+            let corrected = self.see_beside(frame, beside, film, |camera, image| {
+                let mut memory = buffers.borrow(model, camera);
+                let (seen, candidates) = ((camera, image), &found.candidates);
+                let memory = &mut memory;
+                Ok(correct_candidates(model, seen, &planes, candidates, options, memory)?.to_vec())
             });
-            match corrected {
-                Ok(corrected) => found.candidates = corrected.to_vec(),
-                Err(error) => eprintln!("frame {} is not corrected: {error:#}", frame + 1),
-            }
+            let told = |error| eprintln!("frame {} is not corrected: {error:#}", frame + 1);
+            corrected.map_err(told).ok()
         };
-        let frames = self.found.par_iter_mut().enumerate();
-        frames.for_each_init(RefineBuffers::default, correct);
+        self.take(self.each(correct));
     }
 
     /// Looks around the poses of frames for which `beyond` gives when the search may end.
@@ -379,34 +309,55 @@ impl Filmed<'_> {
         beside: &[Beside<'_>],
         beyond: &(impl Fn(usize) -> Option<f64> + Sync),
     ) {
-        let (camera, options) = (self.sequence.camera(), self.options());
-        let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
+        let (model, options) = (&self.model, self.options());
         let planes = symmetry_planes(model.mesh());
-        let look = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
-            let Some(limit_px) = beyond(frame) else {
-                return;
-            };
-            let around = look_beside(sequence, frame, beside, (edges, film), |image| {
-                let seen = (&camera, image);
-                let how = (options, limit_px);
-                let mut memory = buffers.borrow(model, &camera);
-                let candidates = &found.candidates;
-                Ok(look_around(
-                    model,
-                    seen,
-                    &planes,
-                    candidates,
-                    how,
-                    &mut memory,
-                )?)
+        let look = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
+            let how = (options, beyond(frame)?);
+            let around = self.see_beside(frame, beside, film, |camera, image| {
+                let mut memory = buffers.borrow(model, camera);
+                let (seen, candidates) = ((camera, image), &found.candidates);
+                let memory = &mut memory;
+                Ok(look_around(model, seen, &planes, candidates, how, memory)?.to_vec())
             });
-            match around {
-                Ok(around) => found.candidates = around.to_vec(),
-                Err(error) => eprintln!("around frame {} nothing is found: {error:#}", frame + 1),
-            }
+            let told = |error| eprintln!("around frame {} nothing is found: {error:#}", frame + 1);
+            around.map_err(told).ok()
         };
-        let frames = self.found.par_iter_mut().enumerate();
-        frames.for_each_init(RefineBuffers::default, look);
+        self.take(self.each(look));
+    }
+
+    /// What becomes of each frame's candidates, where anything does.
+    fn each(
+        &self,
+        led_to: impl Fn(&mut RefineBuffers, (usize, &FrameFound)) -> Option<Vec<Candidate>>
+        + Send
+        + Sync,
+    ) -> Vec<Option<Vec<Candidate>>> {
+        let frames = self.found.par_iter().enumerate();
+        frames.map_init(RefineBuffers::default, led_to).collect()
+    }
+
+    fn take(&mut self, candidates: Vec<Option<Vec<Candidate>>>) {
+        for (found, candidates) in self.found.iter_mut().zip(candidates) {
+            if let Some(candidates) = candidates {
+                found.candidates = candidates;
+            }
+        }
+    }
+
+    /// Calls `look` with a frame in which the components beside the one that is looked at are hidden.
+    fn see_beside<T>(
+        &self,
+        frame: usize,
+        beside: &[Beside<'_>],
+        film: FilmModel,
+        look: impl FnOnce(&Camera, ImageTarget<'_>) -> Result<T>,
+    ) -> Result<T> {
+        self.see(frame, Some(film), |camera, image| {
+            let hidden = hidden(beside, camera, frame, image.unknown)?;
+            let unknown = hidden.as_ref().map(MaskBuffer::mask);
+            let unknown = unknown.as_ref();
+            look(camera, ImageTarget { unknown, ..image })
+        })
     }
 
     /// Brings a pose onto the edges of a frame, by the film's model where there is one; best first.
@@ -415,15 +366,16 @@ impl Filmed<'_> {
     /// Where there is no frame, and where the pose cannot be refined.
     pub fn refine(
         &self,
-        seen: &Seen<'_>,
+        frame: usize,
         start: &Pose,
         film: Option<FilmModel>,
         buffers: &mut RefineBuffers,
     ) -> Result<Vec<RefinedRival>> {
-        let camera = self.sequence.camera();
-        let view = CameraView::only(&camera, image(seen, self.edges, film)?);
-        let mut memory = buffers.borrow(&self.model, &camera);
-        let (model, options) = (&self.model, self.options());
-        Ok(refine_rivals(model, &[view], &[*start], &[], options, &mut memory)?.to_vec())
+        self.see(frame, film, |camera, image| {
+            let view = CameraView::only(camera, image);
+            let mut memory = buffers.borrow(&self.model, camera);
+            let (model, options) = (&self.model, self.options());
+            Ok(refine_rivals(model, &[view], &[*start], &[], options, &mut memory)?.to_vec())
+        })
     }
 }

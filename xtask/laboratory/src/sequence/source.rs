@@ -5,11 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose::image::grey::Grey;
+use fluoropose::image::mask::Mask;
 use fluoropose_decode::GreyFrame;
 use rayon::prelude::*;
 
 use super::seen::Seen;
-use crate::files::{Frames, MaskBuffer, camera_of_frames, files_in, gaps_in, grey, read_mask};
+use crate::files::{
+    Frames, MaskBuffer, camera_of_frames, files_in, gaps_in, grey, read_mask, reduced,
+};
 use crate::noise::{DisturbanceOptions, Disturbed};
 
 /// Masks, and what belongs to them, that are in memory; as many of each.
@@ -174,6 +178,35 @@ impl Sequence<'_> {
             })
         })
     }
+
+    /// Calls `look` with a grey frame, from 0, in squares with sides of so many pixels, after the camera that saw it so and before what is not
+    /// known of it.
+    ///
+    /// # Errors
+    /// For a frame that is not there or cannot be decoded, squares that do not fit, and those of `look`.
+    pub fn look_in<T>(
+        &self,
+        side: usize,
+        frame: usize,
+        look: impl FnOnce(&Camera, &dyn Grey, Option<&Mask<'_>>) -> Result<T>,
+    ) -> Result<T> {
+        let mask = self.masks.get(frame).context("there is no such frame")?;
+        let frames = self.source.frames.as_ref();
+        let frames = frames.context("the method image needs the grey frames, not only masks")?;
+        let (decoded, unknown) = (frames.decode(frame)?, mask.unknown.as_ref());
+        if side <= 1 {
+            let unknown = unknown.map(MaskBuffer::mask);
+            return look(&self.camera(), &*grey(&decoded)?, unknown.as_ref());
+        }
+        let unknown = unknown.map(|unknown| unknown.mask().reduced(side));
+        let unknown = unknown.as_ref();
+        let unknown = unknown.map(|(width, height, words)| Mask::new(words, *width, *height));
+        look(
+            &self.camera().reduced(side)?,
+            &*grey(&reduced(&decoded, side)?)?,
+            unknown.transpose()?.as_ref(),
+        )
+    }
 }
 
 fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec<MaskBuffer>> {
@@ -257,6 +290,15 @@ mod tests {
                 Ok(())
             };
             sequence.look(frame, look).unwrap();
+            let in_squares = |camera: &Camera, grey: &dyn Grey, told: Option<&Mask<'_>>| {
+                assert_eq!((camera.width(), camera.height()), (32, 32));
+                assert_eq!(grey.size(), (32, 32));
+                // Of a square that begins before them, too.
+                let told = told.unwrap();
+                assert!(told.get(column / 2, 10) && !told.get(column / 2 - 1, 10));
+                Ok(())
+            };
+            sequence.look_in(2, frame, in_squares).unwrap();
         }
         assert!(sequence.look(2, |_| Ok(())).is_err());
         let message = |unknown: &Path| format!("{:#}", read(unknown).err().unwrap());

@@ -28,7 +28,7 @@ use crate::finding::{
 };
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::noise::DisturbanceOptions;
-use crate::sequence::{Folders, Seen, Sequence, Source};
+use crate::sequence::{Folders, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 
 /// Perspective changes views little where the distance changes by this part.
@@ -351,8 +351,7 @@ fn from_reference(
 ) -> Vec<Option<Pose>> {
     let refine = |buffers: &mut RefineBuffers, (frame, pose): (usize, &Option<Pose>)| {
         let start = in_front(&(*pose)?);
-        let look = |seen: &Seen<'_>| part.refine(seen, &start, film, buffers);
-        let found = part.sequence.look(frame, look);
+        let found = part.refine(frame, &start, film, buffers);
         let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &start.rotation);
         let poses = found.map(|found| {
             let poses = found.iter().map(|rival| rival.refined.pose);
@@ -388,6 +387,7 @@ fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Resu
                 sequence: found.files.disturbed(&request.disturbance)?,
                 edges: request.edges,
                 found: &mut found.frames,
+                square_px: 1,
             });
             rest.push((
                 component.attenuation,

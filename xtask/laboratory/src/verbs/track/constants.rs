@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::{FilmEstimate, FilmModel, FilmPool, FilmProfile};
+use fluoropose::film::{FilmEstimate, FilmModel, FilmPool, FilmProfile, SquareChoice};
 use fluoropose::follow::{Anchor, FilmReading};
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::part::Part;
 use super::record::Films;
 use super::run::Run;
-use crate::finding::Stated;
+use crate::finding::{Stated, in_squares};
 
 /// Takes the constants as they are stated, or estimates them from the frames around the anchors, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
@@ -24,10 +24,10 @@ pub(super) fn learn_film(
         Stated::Part(given) => *given,
         Stated::Whole(constants, models) => {
             run.say(format!("film: {constants}"));
+            let models = in_squares(models, run.film.square_px());
             for (part, film) in parts.iter().zip(models) {
                 if let Some(film) = film {
-                    let constants = film.constants.in_squares(run.film.square_px());
-                    part.set_film(FilmModel { constants, ..*film });
+                    part.set_film(film);
                 }
             }
             return Ok(());
@@ -108,9 +108,6 @@ pub(super) fn pooled(square_px: usize, read: Vec<Vec<(usize, Vec<FilmProfile>)>>
     pool
 }
 
-/// Frames that tell the squares which a film is read in.
-const FIRST: usize = 3;
-
 /// Profiles of a component in the first frames that are known of it.
 pub(super) fn first_profiles(
     run: &Run<'_>,
@@ -118,7 +115,7 @@ pub(super) fn first_profiles(
     anchors: &[Anchor],
 ) -> Result<Vec<(usize, Vec<FilmProfile>)>> {
     let mut reading = FilmReading::new(part.middle(), run.film.count(), part.number as u8);
-    for anchor in anchors.iter().take(FIRST) {
+    for anchor in anchors.iter().take(SquareChoice::FRAMES) {
         reading.ask(anchor.frame, anchor.found.pose);
     }
     read(run, part, reading)
