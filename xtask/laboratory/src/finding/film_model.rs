@@ -2,12 +2,11 @@
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, GivenFilm};
+use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{
     Candidate, Limits, Verdict, correct_candidates, judge_fit, look_around, onto_target,
 };
-use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
@@ -19,30 +18,13 @@ use rayon::prelude::*;
 use super::beside::{Beside, hidden};
 use super::film::FrameFound;
 use super::film_squares::{choose_squares, read};
-use super::finder::EdgeOptions;
+use super::filmed::{Filmed, Stated, in_squares};
 use super::misfits::Misfits;
-use crate::files::{MaskBuffer, StatedFilm};
+use crate::files::MaskBuffer;
 use crate::options::{Shown, most};
-use crate::sequence::Sequence;
 
 /// Rounds of estimating the film from poses and correcting these by it.
 const ROUNDS: usize = 2;
-
-/// One component in the frames of a sequence, and what was found there.
-pub struct Filmed<'f> {
-    /// What it is called.
-    pub name: &'f str,
-    /// Its model.
-    pub model: Model<'f>,
-    /// The frames.
-    pub sequence: Sequence<'f>,
-    /// How edges are looked for.
-    pub edges: EdgeOptions,
-    /// Poses that the outlines led to, and then those on the frames.
-    pub found: &'f mut Vec<FrameFound>,
-    /// Side of the squares that the film is read in, pixels; 1 until the frames tell.
-    pub square_px: usize,
-}
 
 /// What is known of the film that some components are on.
 pub struct KnownFilm {
@@ -50,43 +32,6 @@ pub struct KnownFilm {
     pub models: Vec<Option<FilmModel>>,
     /// The same in words.
     pub words: String,
-}
-
-/// What a person states of the film of components.
-#[derive(Clone, Debug)]
-pub enum Stated {
-    /// In part: the rest is estimated.
-    Part(GivenFilm),
-    /// All of its constants, and what it makes of each component, where its attenuation is stated.
-    Whole(FilmConstants, Vec<Option<FilmModel>>),
-}
-
-/// Films of pixels as they are seen in squares.
-pub fn in_squares(models: &[Option<FilmModel>], side: usize) -> Vec<Option<FilmModel>> {
-    let seen = |film: &FilmModel| FilmModel {
-        constants: film.constants.in_squares(side),
-        ..*film
-    };
-    models.iter().map(|film| film.as_ref().map(seen)).collect()
-}
-
-impl Default for Stated {
-    /// Nothing is stated.
-    fn default() -> Self {
-        Self::Part(GivenFilm::default())
-    }
-}
-
-impl Stated {
-    /// Of components with these attenuations, per mm.
-    pub fn of(film: Option<StatedFilm>, attenuations: &[Option<f64>]) -> Self {
-        let Some(constants) = film.and_then(|film| film.constants()) else {
-            return Self::Part(film.map_or(GivenFilm::default(), |film| film.given()));
-        };
-        let model =
-            |attenuation: &Option<f64>| Some(FilmModel::certain(constants, (*attenuation)?));
-        Self::Whole(constants, attenuations.iter().map(model).collect())
-    }
 }
 
 /// Brings poses that outlines led to onto the grey frames. What the film makes of each component is estimated from the frames

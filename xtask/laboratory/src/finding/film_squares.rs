@@ -10,7 +10,7 @@ use fluoropose::refine::{ImageTarget, RefineBuffers, film_profiles};
 use rayon::prelude::*;
 
 use super::film::FrameFound;
-use super::film_model::{Filmed, Stated};
+use super::filmed::{Filmed, Stated};
 
 /// Finds the squares, and tells the parts.
 pub(super) fn choose_squares(parts: &mut [Filmed<'_>], stated: &Stated) {

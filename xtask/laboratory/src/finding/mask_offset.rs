@@ -7,7 +7,7 @@ use fluoropose_report::plus_minus;
 use rayon::prelude::*;
 
 use super::film::FrameFound;
-use super::film_model::Filmed;
+use super::filmed::Filmed;
 
 impl Filmed<'_> {
     /// How far the masks lie off the outlines that poses on the frames have. The film tells nothing of it where it is not known.
