@@ -249,7 +249,10 @@ impl FilmFollower {
     pub fn conclude(&self, other_middles: &[f64]) -> FollowedFilm {
         let middles = known_middles(other_middles);
         let cells = self.following.cells();
+        let side = square_px(self.film.as_ref());
         let frames = self.following.conclude(&middles);
+        let frames = frames.iter().map(|one| one.in_pixels(side)).collect();
+        let in_pixels = |found: &FramePose| found.in_pixels(side);
         let middle = self.seen.middle();
         let uncertainties = cells.iter().map(|cell| {
             let found = cell.found()?;
@@ -263,11 +266,11 @@ impl FilmFollower {
         FollowedFilm {
             residuals: cells
                 .iter()
-                .map(|cell| cell.found().map(|found| found.fit.residual_px))
+                .map(|cell| Some(in_pixels(cell.found()?).fit.residual_px))
                 .collect(),
             uncertainties: uncertainties.collect(),
             rivals: (0..cells.len())
-                .map(|frame| self.following.rival(frame).copied())
+                .map(|frame| self.following.rival(frame).map(in_pixels))
                 .collect(),
             frames,
         }

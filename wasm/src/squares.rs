@@ -4,6 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{Mask, Word};
+use fluoropose::refine::{CameraView, Target};
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use wasm_bindgen::JsError;
@@ -13,6 +14,14 @@ use crate::hidden::with_mask;
 /// Side of the squares that go with what is known of a film, pixels.
 pub(crate) fn square_px(film: Option<&FilmModel>) -> usize {
     film.map_or(1, |film| film.constants.square_px)
+}
+
+/// The same of the film of what a camera saw.
+pub(crate) fn side_of(view: &CameraView<'_>) -> usize {
+    match view.target {
+        Target::Image(image) => square_px(image.film.as_ref()),
+        Target::Silhouette(_) => 1,
+    }
 }
 
 /// What is known of a film, where that is of the frame's own pixels: who looks for poses in those has nothing of another.

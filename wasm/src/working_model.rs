@@ -29,6 +29,7 @@ mod answers;
 pub(crate) use answers::{Assessed, Fit, Judged, Ranked};
 
 use crate::found::{Uncertainty, uncertainty};
+use crate::squares::{side_of, square_px};
 use fluoropose_page::error::sentence;
 
 /// Mirror images nearer to another pose than this are that one, degrees.
@@ -159,7 +160,7 @@ impl WorkingModel {
         ))
     }
 
-    /// How sure a refined pose is and how well it fits, by what a camera saw.
+    /// How sure a refined pose is and how well it fits, by what a camera saw; in pixels of the frame, as all that is handed out.
     ///
     /// # Errors
     /// The core's sentence about the model.
@@ -176,7 +177,7 @@ impl WorkingModel {
             |covariance| uncertainty(&covariance, &found.film_steps, &refined.pose, &middle);
         Ok(Assessed {
             uncertainty: found.covariance.map(known),
-            fit: found.fit,
+            fit: found.fit.in_pixels(side_of(&view)),
         })
     }
 
@@ -191,7 +192,8 @@ impl WorkingModel {
     ) -> Result<OutlineFit, JsError> {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
-        fit_at(&model, &[view], pose, &mut memory).map_err(sentence)
+        let fit = fit_at(&model, &[view], pose, &mut memory).map_err(sentence)?;
+        Ok(fit.in_pixels(side_of(&view)))
     }
 
     /// The same, with what was seen beside each piece of the outline.
@@ -206,7 +208,8 @@ impl WorkingModel {
     ) -> Result<OutlineFit, JsError> {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
-        outline_readings(&model, view, pose, &mut memory, visit).map_err(sentence)
+        let fit = outline_readings(&model, view, pose, &mut memory, visit).map_err(sentence)?;
+        Ok(fit.in_pixels(side_of(&view)))
     }
 
     /// Brings one pose onto what was seen, without rivals or mirror images: somebody chose where to start.
@@ -287,6 +290,9 @@ impl WorkingModel {
         let (known, memory) = (&found.candidates, &mut memory);
         let corrected = correct_candidates(&model, seen, &[], known, options, memory);
         found.candidates = corrected.map_err(sentence)?;
+        let side = square_px(image.film.as_ref());
+        let all = found.candidates.iter_mut();
+        all.for_each(|one| *one = one.in_pixels(side));
         Ok(())
     }
 

@@ -39,6 +39,17 @@ impl Candidate {
         refined.or_else(located).unwrap_or(f64::INFINITY)
     }
 
+    /// The same in pixels of a frame that was looked at in squares with sides of so many of them
+    /// ([`crate::film::FilmConstants::square_px`]).
+    #[must_use]
+    pub fn in_pixels(&self, side: usize) -> Self {
+        Self {
+            refined: self.refined.map(|refined| refined.in_pixels(side)),
+            fit: self.fit.in_pixels(side),
+            ..*self
+        }
+    }
+
     /// The candidate as it is compared with others.
     #[must_use]
     pub fn rival(&self) -> RivalPose {

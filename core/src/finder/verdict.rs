@@ -318,7 +318,8 @@ fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {
 }
 
 fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
-    let limit_px = limits.good_px.min(limits.good_part * fit.size_px);
+    let side = fit.square_px.max(1) as f64;
+    let limit_px = (side * limits.good_px).min(limits.good_part * fit.size_px);
     if fit.implausible_width_mm > 0.0 {
         let mm = fit.implausible_width_mm;
         return Some(Doubt::ImplausibleSize { mm });
@@ -327,7 +328,7 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
         let mm = fit.behind_mm;
         return Some(Doubt::Behind { mm });
     }
-    if fit.size_px < limits.good_size_px {
+    if fit.size_px < side * limits.good_size_px {
         return Some(Doubt::Small { px: fit.size_px });
     }
     if fit.seen() < limits.good_known {
@@ -339,7 +340,9 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
         });
     }
     let apart = |px: f64, limit_px: f64| (px > limit_px).then_some(Doubt::Apart { px, limit_px });
-    let between = fit.apart_px.and_then(|px| apart(px, limits.good_apart_px));
+    let between = fit
+        .apart_px
+        .and_then(|px| apart(px, side * limits.good_apart_px));
     apart(fit.misfit_px, limit_px).or(between)
 }
 
@@ -372,6 +375,29 @@ mod tests {
         };
         assert_eq!(judged(150.0), Verdict::Good);
         assert_eq!(judged(7.0), Verdict::Doubtful(Doubt::Small { px: 7.0 }));
+    }
+
+    #[test]
+    fn what_is_asked_is_asked_in_the_squares_that_the_frame_was_looked_at_in() {
+        let fit = |misfit_px, size_px| Fit {
+            misfit_px,
+            size_px,
+            met: 1.0,
+            known: 1.0,
+            square_px: 1,
+            ..Fit::default()
+        };
+        let judged = |fit: Fit, side| judge_fit(&fit.in_pixels(side), true, &Limits::USUAL);
+        for side in [1, 2, 4] {
+            assert_eq!(judged(fit(1.9, 150.0), side), Verdict::Good);
+            let [px, limit_px] = [2.1, 2.0].map(|px| side as f64 * px);
+            let apart = Doubt::Apart { px, limit_px };
+            assert_eq!(judged(fit(2.1, 150.0), side), Verdict::Doubtful(apart));
+            let small = Doubt::Small {
+                px: side as f64 * 19.0,
+            };
+            assert_eq!(judged(fit(0.1, 19.0), side), Verdict::Doubtful(small));
+        }
     }
 
     #[test]

@@ -33,17 +33,20 @@ const WORST_PX2: f64 = 2.5 * 2.5 / 6.0;
 impl FramePose {
     /// The same where frames are read in squares with sides of so many pixels.
     pub(super) fn in_squares(&self, side: usize) -> Self {
-        let side = side.max(1) as f64;
-        let fit = self.fit;
+        self.scaled(1.0 / side.max(1) as f64)
+    }
+
+    /// The same in pixels of the frames, where these are followed in squares with sides of so many of them.
+    #[must_use]
+    pub fn in_pixels(&self, side: usize) -> Self {
+        self.scaled(side.max(1) as f64)
+    }
+
+    fn scaled(&self, times: f64) -> Self {
         Self {
-            fit: Fit {
-                residual_px: fit.residual_px / side,
-                misfit_px: fit.misfit_px / side,
-                apart_px: fit.apart_px.map(|apart| apart / side),
-                size_px: fit.size_px / side,
-                ..fit
-            },
-            misfit_px: self.misfit_px / side,
+            // What is asked of films is asked of theirs as they are followed.
+            fit: self.fit.scaled(times),
+            misfit_px: times * self.misfit_px,
             ..*self
         }
     }

@@ -36,6 +36,9 @@ pub struct Fit {
     pub behind_mm: f64,
     /// How wide the model is, mm, where that is no size of a knee's component, as of a file in another unit; 0 of others.
     pub implausible_width_mm: f64,
+    /// Side of the squares of pixels in which the frame was looked at, whose lengths are handed out in pixels ([`Self::in_pixels`]): what
+    /// is asked of a good fit is asked in those. Else 1, or 0.
+    pub square_px: usize,
 }
 
 impl Fit {
@@ -43,6 +46,27 @@ impl Fit {
     #[must_use]
     pub fn seen(&self) -> f64 {
         self.known * (1.0 - self.beyond)
+    }
+
+    /// The same in pixels of a frame that was looked at in squares with sides of so many of them
+    /// ([`crate::film::FilmConstants::square_px`]).
+    #[must_use]
+    pub fn in_pixels(&self, side: usize) -> Self {
+        Self {
+            square_px: side,
+            ..self.scaled(side.max(1) as f64)
+        }
+    }
+
+    /// All lengths in the frame so many times as long.
+    pub(crate) fn scaled(&self, times: f64) -> Self {
+        Self {
+            residual_px: times * self.residual_px,
+            misfit_px: times * self.misfit_px,
+            apart_px: self.apart_px.map(|apart| times * apart),
+            size_px: times * self.size_px,
+            ..*self
+        }
     }
 }
 
@@ -167,6 +191,7 @@ impl FitSums {
             size_px: sqrt(part(self.area, self.views)),
             behind_mm: self.behind_mm,
             implausible_width_mm: self.implausible_width_mm,
+            square_px: 1,
         }
     }
 }

@@ -40,6 +40,20 @@ impl Refined {
             converged: false,
         }
     }
+
+    /// The same in pixels of a frame that was looked at in squares with sides of so many of them
+    /// ([`crate::film::FilmConstants::square_px`]).
+    #[must_use]
+    pub fn in_pixels(&self, side: usize) -> Self {
+        let side = side.max(1) as f64;
+        Self {
+            offset_px: side * self.offset_px,
+            residual_px: side * self.residual_px,
+            robust_sigma_px: side * self.robust_sigma_px,
+            loss: side * side * self.loss,
+            ..*self
+        }
+    }
 }
 
 /// A pose on the way, from which a caller can see how refinement converges.

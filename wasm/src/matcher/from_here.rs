@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::*;
 use super::Matcher;
 use crate::film::film_model;
 use crate::found::Uncertainty;
-use crate::squares::{look_in_squares, square_px};
+use crate::squares::{look_in_squares, side_of, square_px};
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -299,7 +299,7 @@ fn fitted(
     let determined = !free || assessed.uncertainty.is_some();
     Ok(HandFit {
         pose: to_numbers(&EulerPose::from(refined.pose)),
-        residual_px: refined.residual_px,
+        residual_px: refined.in_pixels(side_of(&view)).residual_px,
         drawn: None,
         uncertainty: assessed.uncertainty.filter(|_| free),
         bright: false,

@@ -276,8 +276,10 @@ impl Matcher {
         seen: &Seen<'_>,
     ) -> Result<Vec<OnFrame>, JsError> {
         let model = model_of(&mut self.model)?;
-        let px = misfit(&one.refined);
-        let beyond = look_beyond(seen.usual, px, model.is_nearly_symmetric());
+        let side = square_px(seen.film.as_ref()) as f64;
+        // What remains is in sides of squares until it is handed out.
+        let (usual, remains) = (seen.usual.map(|px| px / side), misfit(&one.refined));
+        let beyond = look_beyond(usual, remains, model.is_nearly_symmetric());
         let (Some(enough), Some(_)) = (beyond, seen.film) else {
             return Ok(Vec::new());
         };
@@ -294,15 +296,16 @@ impl Matcher {
         let model = model_of(&mut self.model)?;
         let assessed = seen.look(|view| model.assess(&one.refined, view))?;
         let assessed = supported(assessed, one.support);
+        let refined = one.refined.in_pixels(square_px(seen.film.as_ref()));
         let pose = &one.refined.pose;
         let (view, at_border) = self.view_of(pose)?;
         Ok(Candidate {
             pose: to_numbers(&EulerPose::from(*pose)),
             unmatched: None,
             drawn: None,
-            residual_px: Some(one.refined.residual_px),
-            misfit: Some(misfit(&one.refined)),
-            verdict: Some(assessed.verdict().or_doubt(seen.doubt(&one.refined))),
+            residual_px: Some(refined.residual_px),
+            misfit: Some(misfit(&refined)),
+            verdict: Some(assessed.verdict().or_doubt(seen.doubt(&refined))),
             uncertainty: assessed.uncertainty,
             start: Some(to_numbers(&EulerPose::from(one.start))),
             view,

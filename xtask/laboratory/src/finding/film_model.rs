@@ -56,6 +56,11 @@ pub fn bring_onto_frames(parts: &mut [Filmed<'_>], stated: &Stated) -> KnownFilm
         }
     }
     look_around_unusual(parts, &known);
+    for part in parts {
+        let side = part.square_px;
+        let found = part.found.iter_mut().flat_map(|one| &mut one.candidates);
+        found.for_each(|one| *one = one.in_pixels(side));
+    }
     known
 }
 

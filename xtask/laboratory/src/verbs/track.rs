@@ -45,7 +45,7 @@ Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found),
 film, in pixels of the file, and square_px: the side of the squares of pixels that it is read in, 1 unless pixels are much finer than the blur), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
 and after other clicks or fixed poses only what lies between them is done again.\n\n\
 track.csv: frame, component, state, verdict (good, doubtful or none), because (the reason of both), the six numbers and one standard deviation of each (sd_*), misfit_px (what remains between the model's outline and the edges \
-of the frame, in sides of the squares that the film is read in: film.csv), badness (how much speaks against the pose: above 1 it is doubtful), file (the name of the frame's file) and frame_of_file (the frame's \
+of the frame, in pixels of the file), badness (how much speaks against the pose: above 1 it is doubtful), file (the name of the frame's file) and frame_of_file (the frame's \
 number in it, from 1).\n\n\
 COMPONENT.covariances.csv: frame, and c11 to c66, row by row, the covariance of a turn about the middle of the model's box (a rotation vector, radians: numbers 1 to 3) and a \
 shift of that middle (mm: 4 to 6), both along the camera's axes; film1_1 to film2_6: how turn and shift answer to one standard deviation of each of two constants of the film, which \

@@ -246,7 +246,7 @@ fn finish(
     films: &[Vec<Cell>],
     margins: &[Margins],
 ) -> Result<Vec<Tracked>> {
-    let out = &run.request.out;
+    let (out, side) = (&run.request.out, run.film.square_px());
     let mut tracked = Vec::new();
     let joint = beside(run, parts, films)?;
     for (number, part) in parts.iter().enumerate() {
@@ -260,7 +260,9 @@ fn finish(
         let covariances = out.join(format!("{}.covariances.csv", part.name()));
         write_text(&covariances, &covariance_table(cells))?;
         let rows = cells.iter().zip(&judged).enumerate();
-        let row = |(frame, (cell, judged))| Row::of(frame, cell, judged, &middle);
+        let row = |(frame, (cell, judged)): (usize, (&Cell, &Conclusion))| {
+            Row::of(frame, cell, &judged.in_pixels(side), (&middle, side))
+        };
         tracked.push(Tracked {
             component: part.name().to_owned(),
             rows: rows.map(row).collect(),

@@ -89,6 +89,7 @@ impl Record for FramePose {
             size_px,
             behind_mm,
             implausible_width_mm: 0.0,
+            square_px: 1,
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;

@@ -88,7 +88,13 @@ pub(super) fn covariance_table(cells: &[Cell]) -> String {
 }
 
 impl Row {
-    pub(super) fn of(frame: usize, cell: &Cell, judged: &Conclusion, middle: &Vector3) -> Self {
+    /// Of a component with such a `middle`, in a film that is read in squares with sides of so many pixels.
+    pub(super) fn of(
+        frame: usize,
+        cell: &Cell,
+        judged: &Conclusion,
+        (middle, side): (&Vector3, usize),
+    ) -> Self {
         let found = cell.found().filter(|_| !cell.fixed);
         let sd = found.and_then(|found| Some(found.covariance?.deviations(&found.pose, middle)));
         Self {
@@ -96,7 +102,7 @@ impl Row {
             state: judged.state,
             pose: judged.pose.map(EulerPose::from),
             sd,
-            misfit_px: cell.found().map(|found| found.misfit_px),
+            misfit_px: cell.found().map(|found| found.in_pixels(side).misfit_px),
             badness: judged.badness,
             because: judged.to_string(),
         }
