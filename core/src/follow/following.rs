@@ -252,16 +252,24 @@ impl Following {
         }
     }
 
-    /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
+    /// Begins to look at frames for the other pose that may be the right one, for somebody who compares both; see [`Self::rival`].
     pub fn compare_sides(&mut self, frames: impl Iterator<Item = usize>) {
         if self.phase == Phase::Over {
             self.phase = Phase::Compare;
+            let margins = self.settling.margins(&self.cells);
+            let is_elsewhere = |frame: &usize| {
+                let margin = margins.get(*frame).copied().flatten();
+                margin.is_some_and(|other| other.rival == Rival::Elsewhere && !other.decides())
+            };
             let wanted = frames.filter(|frame| self.range.contains(frame));
-            self.tasks.extend(wanted.map(Task::BothSides));
+            self.tasks.extend(wanted.map(|frame| match is_elsewhere(&frame) {
+                true => Task::Elsewhere(frame),
+                false => Task::BothSides(frame),
+            }));
         }
     }
 
-    /// What the other side of the mirror looks like in a frame, where it was compared and there is one.
+    /// The other pose of a frame, where it was compared and there is one: the one beside it that is as likely, or its mirror image.
     #[must_use]
     pub fn rival(&self, frame: usize) -> Option<&FramePose> {
         let compared = self.rivals.iter().find(|sample| sample.frame == frame)?;
@@ -415,15 +423,25 @@ impl Following {
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
         let &own = self.cells[frame].found()?;
-        let mirrored = self.settling.both_sides_of(frame)?.mirrored_now(&own);
+        let both = self.settling.both_sides_of(frame);
+        if both.is_none() && self.phase != Phase::Compare {
+            return None;
+        }
+        let mirrored = both.and_then(|both| both.mirrored_now(&own));
         let other = elsewhere(subject, image, (&own, mirrored.as_ref()), memory);
-        self.settling.saw(SideSample {
+        let sample = SideSample {
             frame,
             own,
             rival: Rival::Elsewhere,
             other,
-            fixed: false,
-        });
+            fixed: self.cells[frame].fixed,
+        };
+        match (self.phase, other) {
+            // What a frame beside it was seen with may not be there.
+            (Phase::Compare, None) => return self.see_both_sides(subject, image, frame, memory),
+            (Phase::Compare, Some(_)) => self.rivals.push(sample),
+            _ => self.settling.saw(sample),
+        }
         Some(own)
     }
 
