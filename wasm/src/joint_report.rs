@@ -34,6 +34,7 @@ impl JointReport {
             frames_per_s: (frames_per_s > 0.0).then_some(frames_per_s),
             cutoff_hz: None,
             remarks: Vec::new(),
+            has_verdicts: true,
             rows: Vec::new(),
         };
         if let Some(joint) = knee.joint()? {
@@ -51,7 +52,8 @@ impl JointReport {
         Ok(Self { film, facts })
     }
 
-    /// The next frame: its numbers as `KneeJoint.numbers` gives them, empty where there are none. `doubt` says why it is doubtful.
+    /// The next frame: its numbers as `KneeJoint.numbers` gives them, empty where there are none. `doubt` says why it is doubtful, `accepted`
+    /// why it was until a person accepted it.
     ///
     /// # Errors
     /// When the numbers are of another count.
@@ -61,6 +63,7 @@ impl JointReport {
         numbers: &[f64],
         checked: bool,
         doubt: Option<String>,
+        accepted: Option<String>,
     ) -> Result<(), JsError> {
         let joint = match numbers {
             [] => None,
@@ -69,6 +72,7 @@ impl JointReport {
         let number = self.film.rows.len() + 1;
         self.film.rows.push(JointRow {
             checked,
+            accepted,
             ..JointRow::new(number, joint, doubt)
         });
         Ok(())
@@ -215,7 +219,7 @@ mod tests {
             let numbers = joint.numbers(&placed).ok().unwrap();
             let numbers = if frame == 1 { &[] } else { &numbers[..] };
             let doubt = (frame == 2).then(|| "a rim".to_owned());
-            let added = report.add_frame(numbers, frame == 0, doubt);
+            let added = report.add_frame(numbers, frame == 0, doubt, None);
             assert!(added.is_ok());
         }
         report

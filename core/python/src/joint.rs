@@ -39,7 +39,7 @@ struct Joint {
 
 /// The joint of two components: all that is made of it.
 #[pyfunction]
-#[pyo3(signature = (femur, tibia, *, side, name, fps, cutoff, doubts))]
+#[pyo3(signature = (femur, tibia, *, side, name, fps, cutoff, doubts, judged))]
 #[allow(clippy::too_many_arguments, reason = "Python names each of them")]
 pub(crate) fn joint<'py>(
     py: Python<'py>,
@@ -50,6 +50,7 @@ pub(crate) fn joint<'py>(
     fps: Option<f64>,
     cutoff: Option<f64>,
     doubts: BTreeMap<usize, String>,
+    judged: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let side = match side {
         "left" => Side::Left,
@@ -64,6 +65,8 @@ pub(crate) fn joint<'py>(
         femur: body(py, "femur", femur),
         tibia: body(py, "tibia", tibia),
         doubts,
+        has_verdicts: judged,
+        accepted: BTreeMap::new(),
         checked: BTreeSet::new(),
         film: Vec::new(),
         whose: "those of a Python program".to_owned(),

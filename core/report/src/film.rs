@@ -80,6 +80,8 @@ pub struct JointRow {
     pub checked: bool,
     /// Why it is doubtful; `None` where it is not.
     pub doubt: Option<String>,
+    /// Why poses of it were doubtful that a person has accepted, so that they count.
+    pub accepted: Option<String>,
     /// How far its components lie beside each other, where that is as in no knee.
     pub beside: Option<Beside>,
 }
@@ -104,6 +106,8 @@ pub struct JointFilm {
     /// What a reader has to know of the knee, sentences: that it may be of the other side, that a shape does not tell its front. They stand
     /// in the heading of its table.
     pub remarks: Vec<String>,
+    /// Whether the poses come with what says how far each is to be trusted. Without it nobody knows which are doubtful.
+    pub has_verdicts: bool,
     /// Frame by frame.
     pub rows: Vec<JointRow>,
 }
@@ -215,6 +219,51 @@ impl JointFilm {
     #[must_use]
     pub fn posed(&self) -> usize {
         self.rows.iter().filter(|row| row.joint.is_some()).count()
+    }
+
+    /// How many of those poses a person has accepted that were doubtful.
+    #[must_use]
+    pub fn accepted(&self) -> usize {
+        let accepted = |row: &&JointRow| row.joint.is_some() && row.accepted.is_some();
+        self.rows.iter().filter(accepted).count()
+    }
+
+    /// How many frames are doubtful, in words, after the number of those that have a joint.
+    #[must_use]
+    pub fn doubtful_told(&self) -> String {
+        let doubtful = match (self.has_verdicts, self.doubtful()) {
+            (true, doubtful) => format!("{doubtful} doubtful"),
+            (false, 0) => "which of them are doubtful is not known".to_owned(),
+            (false, doubtful) => {
+                format!(
+                    "{doubtful} doubtful by their numbers alone, and of no other pose is it known"
+                )
+            }
+        };
+        match self.accepted() {
+            0 => doubtful,
+            some => format!("{doubtful}, {some} that were until a person accepted them"),
+        }
+    }
+
+    /// What a reader has to know of the verdicts on the poses: that there are none, and what a person accepted. Sentences.
+    #[must_use]
+    pub fn verdicts_told(&self) -> Vec<String> {
+        let none = "Nothing says how far the poses are to be trusted, as the table of `track`, of the page or of `pose --report` does: a frame without a doubt need not be good.";
+        let mut told: Vec<String> = Vec::new();
+        told.extend((!self.has_verdicts).then(|| none.to_owned()));
+        let frames = self.rows.iter().filter_map(|row| {
+            let accepted = row.accepted.as_deref()?;
+            Some(format!("{} ({accepted})", row.number))
+        });
+        let frames: Vec<String> = frames.collect();
+        if !frames.is_empty() {
+            told.push(format!(
+                "Frames with poses that were doubtful, and that a person accepted: {}.",
+                frames.join(", ")
+            ));
+        }
+        told
     }
 
     /// The same numbers without those of doubtful frames: what steps, phases and centre are made from.

@@ -56,9 +56,9 @@ fn summary(film: &JointFilm) -> String {
         Side::Left => "Left",
         Side::Right => "Right",
     };
-    let doubtful = film.doubtful();
+    let doubtful = film.doubtful_told();
     format!(
-        "{side} knee, {} frames: {} with a pose of both components, {doubtful} doubtful. Made by fluoropose {}. Not a medical device, and not for \
+        "{side} knee, {} frames: {} with a pose of both components, {doubtful}. Made by fluoropose {}. Not a medical device, and not for \
          decisions about patients.",
         film.rows.len(),
         film.posed(),
@@ -215,7 +215,11 @@ fn doubts(out: &mut String, film: &JointFilm) {
         let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&all));
     }
     if reasons.is_empty() {
-        out.push_str("<p>No frame is marked as doubtful.</p>\n");
+        let none = match film.has_verdicts {
+            true => "No frame is marked as doubtful.",
+            false => "Which frames are doubtful is not known: the poses come without verdicts.",
+        };
+        let _ = writeln!(out, "<p>{none}</p>");
     } else {
         out.push_str(
             "<table><thead><tr><th>frames</th><th class=\"word\">why</th></tr></thead><tbody>\n",
@@ -306,7 +310,9 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
     say(
         "The centre of rotation takes what errs from frame to frame as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
     );
-    for remark in facts.remarks.iter().chain(&film.origins_told()) {
+    let verdicts = film.verdicts_told();
+    let remarks = verdicts.iter().chain(&facts.remarks);
+    for remark in remarks.chain(&film.origins_told()) {
         say(remark);
     }
     out.push_str("</ul>\n");

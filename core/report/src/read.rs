@@ -165,6 +165,7 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
         frames_per_s: None,
         cutoff_hz: None,
         remarks: Vec::new(),
+        has_verdicts: true,
         rows: Vec::new(),
     };
     let column = |name: &str| table.column(name).ok_or(ReadError::Kind("joint table"));
@@ -178,18 +179,7 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
     let body = text
         .lines()
         .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
-    let doubts = body.skip(1).map(|line| {
-        let doubt = line
-            .split_once(",\"")
-            .map_or("", |(_, doubt)| doubt)
-            .trim_end();
-        let doubt = doubt
-            .strip_suffix('"')
-            .unwrap_or(doubt)
-            .replace("\"\"", "\"");
-        plain(&doubt).to_owned()
-    });
-    for (at, doubt) in doubts.enumerate() {
+    for (at, doubt) in body.skip(1).map(doubt_of).enumerate() {
         let take = |columns: &[Vec<f64>]| core::array::from_fn(|k| columns[k][at]);
         let joint = JointFrame {
             numbers: take(&all),
@@ -203,10 +193,24 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
             filtered: None,
             checked: checked[at] > 0.0,
             doubt: (!doubt.is_empty()).then_some(doubt),
+            accepted: None,
             beside: None,
         });
     }
     Ok(film)
+}
+
+/// The text at the end of a row.
+fn doubt_of(line: &str) -> String {
+    let doubt = line
+        .split_once(",\"")
+        .map_or("", |(_, doubt)| doubt)
+        .trim_end();
+    let doubt = doubt
+        .strip_suffix('"')
+        .unwrap_or(doubt)
+        .replace("\"\"", "\"");
+    plain(&doubt).to_owned()
 }
 
 /// What a heading says between two words.

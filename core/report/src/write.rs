@@ -45,6 +45,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
         filter,
     ];
     lines.extend(film.origins_told());
+    lines.extend(film.verdicts_told().iter().map(|told| in_heading(told)));
     lines.extend(film.remarks.iter().map(|remark| in_heading(remark)));
     lines
 }

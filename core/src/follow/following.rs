@@ -262,10 +262,11 @@ impl Following {
                 margin.is_some_and(|other| other.rival == Rival::Elsewhere && !other.decides())
             };
             let wanted = frames.filter(|frame| self.range.contains(frame));
-            self.tasks.extend(wanted.map(|frame| match is_elsewhere(&frame) {
-                true => Task::Elsewhere(frame),
-                false => Task::BothSides(frame),
-            }));
+            self.tasks
+                .extend(wanted.map(|frame| match is_elsewhere(&frame) {
+                    true => Task::Elsewhere(frame),
+                    false => Task::BothSides(frame),
+                }));
         }
     }
 

@@ -29,12 +29,20 @@ function frameOf(doc: Doc, frameId: string, numbers: JointNumbers): PublishedFra
   const cells = COMPONENT_NAMES.map((component) => ({ component, cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
   const row = numbers.of.get(frameId);
   const doubts = cells.flatMap(({ component, cell, mark }) => doubtIn(component, cell, mark));
+  const accepted = cells.flatMap(({ component, cell, mark }) => acceptedIn(component, cell, mark));
   return {
     // A copy: what goes to a worker is not seen here again.
     numbers: row ? Float64Array.from(row) : null,
     checked: cells.every(({ cell, mark }) => checkState(cell, mark) === 'yes'),
     doubt: doubts.length > 0 ? doubts.join('; ') : null,
+    accepted: accepted.length > 0 ? accepted.join('; ') : null,
   };
+}
+
+/** They count, and whoever reads of them is to know. */
+function acceptedIn(component: ComponentName, cell: Cell, mark: Mark): string[] {
+  const doubt = checkState(cell, mark) === 'yes' ? doubtOf(cell) : null;
+  return doubt === null ? [] : [`${component}: ${doubt}`];
 }
 
 /** In the words of the command line's table of states. What a person has accepted counts. */
@@ -79,18 +87,6 @@ function distortionOf({ distortion }: Doc): string {
   return distortion ? `corrected, of ${distortion.appliesTo}` : 'not corrected';
 }
 
-/** What the poses that a person accepted were doubtful by: they count, and whoever reads of them is to know. */
-function acceptedIn(doc: Doc): string[] {
-  return COMPONENT_NAMES.flatMap((component) => {
-    const accepted = doc.frames.flatMap(({ id }, index) => {
-      const [cell, mark] = [cellOf(doc, id, component), markOf(doc, { frameId: id, component })];
-      const doubt = checkState(cell, mark) === 'yes' ? doubtOf(cell) : null;
-      return doubt === null ? [] : [`frame ${index + 1} (${doubt})`];
-    });
-    return accepted.length > 0 ? [`Poses of the ${component} that were doubtful, and that a person accepted: ${accepted.join(', ')}.`] : [];
-  });
-}
-
 /** How the poses of a component were found, the most frequent first. */
 function methodsOf(doc: Doc, component: ComponentName): string {
   const counts = new Map<string, number>();
@@ -118,5 +114,5 @@ function remarksOf(doc: Doc): string[] {
   });
   const assumed = COMPONENT_NAMES.filter((component) => !doc.components[component].axes && knownAxes(doc.components[component]));
   if (doc.unread.length > 0) remarks.unshift(`Frames that could not be read, and are not counted: ${doc.unread.join(', ')}.`);
-  return [...remarks, ...acceptedIn(doc), ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
+  return [...remarks, ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
 }

@@ -52,9 +52,9 @@ describe('what is published', () => {
     set(store, 1, 'tibia', posed({ verdict: { word: 'doubtful', because: 'its mirror image fits as well' } }));
     const place = { frameId: 'f1', component: 'tibia' } as const;
     store.perform(toggleChecked(place));
-    const { frames, remarks } = await publishedFilm(store.doc, numbers(2));
+    const { frames } = await publishedFilm(store.doc, numbers(2));
     expect(frames[1]?.doubt).toBeNull();
-    expect(remarks).toContain('Poses of the tibia that were doubtful, and that a person accepted: frame 2 (its mirror image fits as well).');
+    expect(frames.map(({ accepted }) => accepted)).toEqual([null, 'tibia: its mirror image fits as well']);
     expect(faultsOf(store.doc).doubtful).toEqual([]);
     // An acceptance is of what was looked at.
     set(store, 1, 'tibia', posed({ candidates: [{ ...bare({ ...POSE, x: 1 }), residual: 0.2 }], verdict: { word: 'doubtful', because: 'so' } }));

@@ -139,6 +139,7 @@ def kinematics(
         fps=fps,
         cutoff=cutoff_hz,
         doubts=_doubts(femur, tibia),
+        judged=isinstance(femur, Poses) and isinstance(tibia, Poses),
     )
     _checks.warn(joint["remarks"])
     steps = joint["by_flexion"]

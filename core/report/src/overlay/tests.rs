@@ -31,6 +31,7 @@ fn film() -> JointFilm {
         frames_per_s: Some(10.0),
         cutoff_hz: None,
         remarks: Vec::new(),
+        has_verdicts: true,
         rows: (0..FRAMES).map(row).collect(),
     }
 }

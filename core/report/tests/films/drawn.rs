@@ -238,3 +238,46 @@ fn without_deviations(mut film: JointFilm) -> JointFilm {
     }
     film
 }
+
+#[test]
+fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told() {
+    let told = |film: &JointFilm| {
+        let page = html(film, &Facts::default());
+        let table = write::table(film);
+        let heading: Vec<&str> = table.lines().filter(|line| line.starts_with('#')).collect();
+        (page, heading.join("\n"))
+    };
+    let (page, heading) = told(&film(0.0));
+    assert!(page.contains("29 with a pose of both components, 1 doubtful. Made by"));
+    assert!(!page.contains("Nothing says") && !heading.contains("accepted"));
+
+    let mut unjudged = film(0.0);
+    unjudged.has_verdicts = false;
+    unjudged.rows.iter_mut().for_each(|row| row.doubt = None);
+    let (page, heading) = told(&unjudged);
+    assert!(page.contains(
+        "29 with a pose of both components, which of them are doubtful is not known. Made"
+    ));
+    assert!(
+        page.contains("Which frames are doubtful is not known")
+            && !page.contains("No frame is marked")
+    );
+    for text in [&page, &heading] {
+        assert!(
+            text.contains("Nothing says how far the poses are to be trusted"),
+            "{text}"
+        );
+    }
+
+    let mut accepted = film(0.0);
+    for row in &mut accepted.rows[3..5] {
+        row.accepted = Some("tibia: ambiguous, perhaps".to_owned());
+    }
+    let (page, heading) = told(&accepted);
+    assert!(page.contains("1 doubtful, 2 that were until a person accepted them"));
+    let frames = "accepted: 4 (tibia: ambiguous, perhaps), 5 (tibia: ambiguous, perhaps).";
+    assert!(
+        page.contains(frames) && heading.contains(frames),
+        "{heading}"
+    );
+}

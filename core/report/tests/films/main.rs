@@ -38,6 +38,7 @@ fn film(rotation_deg: f64) -> JointFilm {
             filtered: None,
             checked: k == 2,
             beside: None,
+            accepted: None,
             doubt: (k == 5).then(|| "tibia doubtful: \"rim\" <inner>, or not".to_owned()),
         }
     };
@@ -50,6 +51,7 @@ fn film(rotation_deg: f64) -> JointFilm {
         frames_per_s: Some(15.0),
         cutoff_hz: None,
         remarks: Vec::new(),
+        has_verdicts: true,
         rows: (0..30).map(row).collect(),
     }
 }

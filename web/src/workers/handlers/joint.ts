@@ -86,7 +86,7 @@ function published<T>(joint: KneeJoint | null, film: PublishedFilm, made: (repor
 
 function reportOf(joint: KneeJoint, { name, rate, frames, inputs, settings, remarks }: PublishedFilm): JointReport {
   const report = new JointReport(joint, name, rate);
-  for (const { numbers, checked, doubt } of frames) report.addFrame(numbers ?? NOTHING, checked, doubt ?? undefined);
+  for (const { numbers, checked, doubt, accepted } of frames) report.addFrame(numbers ?? NOTHING, checked, doubt ?? undefined, accepted ?? undefined);
   for (const input of inputs) report.addInput(input.what, input.name, input.sha256);
   for (const [setting, value] of settings) report.addSetting(setting, value);
   for (const remark of remarks) report.addRemark(remark);

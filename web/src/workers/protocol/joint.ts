@@ -38,6 +38,8 @@ export interface Uncertain {
 export interface PublishedFrame {
   readonly numbers: Float64Array<ArrayBuffer> | null;
   readonly checked: boolean;
+  /** Why poses of it were doubtful that a person has accepted; null where none were. */
+  readonly accepted: string | null;
   /** Why it is doubtful; null where it is not. */
   readonly doubt: string | null;
 }

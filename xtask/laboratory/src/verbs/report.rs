@@ -177,13 +177,15 @@ fn facts(knee: &Knee, sources: &Sources) -> Facts {
 
 fn print(out: &Path, film: &JointFilm) {
     println!(
-        "{}: {} of {} frames have a joint, {} are doubtful",
+        "{}: {} of {} frames have a joint, {}",
         film.name,
         film.posed(),
         film.rows.len(),
-        film.doubtful()
+        film.doubtful_told()
     );
-    for told in film.impossibilities().iter().chain(&film.origins_told()) {
+    let verdicts = film.verdicts_told();
+    let told = film.impossibilities().into_iter().chain(verdicts);
+    for told in told.chain(film.origins_told()) {
         println!("{told}");
     }
     println!("translations: {ORIGINS}");

@@ -125,6 +125,7 @@ impl<'s> Knee<'s> {
             rows.push(JointRow {
                 filtered: filtered.get(frame).copied().flatten(),
                 checked: sources.checked.contains(&frame),
+                accepted: sources.accepted.get(&frame).cloned(),
                 ..row.lying(beside.get(frame).copied().flatten())
             });
         }
@@ -140,6 +141,7 @@ impl<'s> Knee<'s> {
             frames_per_s: filtering.frames_per_s,
             cutoff_hz: filtering.low_pass.map(|low_pass| low_pass.cutoff_hz),
             remarks: self.remarks.clone(),
+            has_verdicts: sources.has_verdicts,
             rows,
         })
     }

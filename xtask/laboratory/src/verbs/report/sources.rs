@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose_report::cell::plain;
+use fluoropose_report::cell::{plain, quoted};
 use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
@@ -46,6 +46,10 @@ pub struct Sources {
     pub tibia: Body,
     /// Why a frame is doubtful, by its number from 0.
     pub doubts: BTreeMap<usize, String>,
+    /// Whether the poses of both components come with verdicts.
+    pub has_verdicts: bool,
+    /// Why poses of a frame were doubtful that a person has accepted, by its number from 0.
+    pub accepted: BTreeMap<usize, String>,
     /// Frames, from 0, in which a person has checked both poses.
     pub checked: BTreeSet<usize>,
     /// The constants of the film by which poses were found, in words: a component and what it is seen with.
@@ -78,15 +82,14 @@ impl Sources {
         if a != b {
             bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");
         }
-        let table = poses.map(|folder| folder.join("track.csv"));
-        let states = match table.filter(|table| table.is_file()) {
-            Some(table) => {
-                inputs.push(digest("states of the frames", &table)?);
-                read_text(&table)?
-            }
-            None => String::new(),
+        let states = match poses {
+            Some(folder) => states(folder, [&femur.name, &tibia.name], &mut inputs)?,
+            None => None,
         };
+        let has_verdicts = states.is_some();
+        let states = states.unwrap_or_default();
         let (mut doubts, mut checked) = (doubts(&states), checked(&states));
+        let mut accepted = accepted(&states);
         if let Some(folder) = poses
             && let Some(rows) = PoseRows::of(folder, study.frames.as_deref())?
         {
@@ -94,19 +97,13 @@ impl Sources {
             femur.set_rows(&rows)?;
             tibia.set_rows(&rows)?;
             doubts = by_frame(doubts, &rows);
+            accepted = by_frame(accepted, &rows);
             checked = checked
                 .iter()
                 .filter_map(|&row| rows.frame_of(row))
                 .collect();
         }
-        let constants = poses.map(|folder| folder.join("film.csv"));
-        let film = match constants.filter(|table| table.is_file()) {
-            Some(table) => {
-                inputs.push(digest("constants of the film", &table)?);
-                constants_of_film(&read_text(&table)?)
-            }
-            None => Vec::new(),
-        };
+        let film = film_of(poses, &mut inputs)?;
         let whose = match poses {
             Some(folder) => format!("those of the folder {}", name_of(folder)),
             None => "the study's references".to_owned(),
@@ -115,6 +112,8 @@ impl Sources {
             femur,
             tibia,
             doubts,
+            has_verdicts,
+            accepted,
             checked,
             film,
             whose,
@@ -123,9 +122,84 @@ impl Sources {
     }
 }
 
+/// The table of states in a folder of poses: what `track` and the page write, or what `pose --report` writes of both components, as COMPONENT.csv.
+fn states(folder: &Path, components: [&str; 2], inputs: &mut Vec<Input>) -> Result<Option<String>> {
+    let table = folder.join("track.csv");
+    if table.is_file() {
+        inputs.push(digest("states of the frames", &table)?);
+        return Ok(Some(read_text(&table)?));
+    }
+    let mut all = String::from("frame,component,state,verdict,because\n");
+    for component in components {
+        let table = folder.join(format!("{component}.csv"));
+        let rows = match table.is_file() {
+            true => rows_of_report(component, &read_text(&table)?),
+            false => None,
+        };
+        let Some(rows) = rows else { return Ok(None) };
+        inputs.push(digest(&format!("verdicts of the {component}"), &table)?);
+        all.push_str(&rows);
+    }
+    Ok(Some(all))
+}
+
+/// The rows of a table of `pose --report` as those of `track.csv`; `None` where it is no such table.
+fn rows_of_report(component: &str, table: &str) -> Option<String> {
+    let mut lines = table.lines();
+    let heading = csv_fields(lines.next()?);
+    let place = |name: &str| heading.iter().position(|one| one == name);
+    let places = [place("frame")?, place("verdict")?, place("because")?];
+    let row = |line: &str| {
+        let fields = csv_fields(line);
+        let [frame, verdict, because] = places.map(|place| fields.get(place));
+        let (frame, verdict, because) = (frame?, verdict?, because?);
+        let (component, because) = (quoted(component), quoted(because));
+        Some(format!(
+            "{frame},{component},{verdict},{verdict},{because}\n"
+        ))
+    };
+    Some(lines.filter_map(row).collect())
+}
+
+/// Before the reason why a pose was doubtful that a person accepted, in the page's table of states.
+const ACCEPTED: &str = "a person accepted it; it was doubtful: ";
+
+/// The reasons why poses were doubtful that a person accepted, by frame, from 0.
+fn accepted(text: &str) -> BTreeMap<usize, String> {
+    let mut all: BTreeMap<usize, String> = BTreeMap::new();
+    for fields in text.lines().skip(1).map(csv_fields) {
+        let [frame, component, _, _, because, ..] = fields.as_slice() else {
+            continue;
+        };
+        let told = (
+            frame.parse::<usize>(),
+            plain(because).strip_prefix(ACCEPTED),
+        );
+        if let (Ok(frame), Some(because)) = told {
+            let why = format!("{}: {because}", plain(component));
+            let frame = all.entry(frame.saturating_sub(1)).or_default();
+            match frame.is_empty() {
+                true => *frame = why,
+                false => *frame = format!("{frame}; {why}"),
+            }
+        }
+    }
+    all
+}
+
 fn by_frame<T>(of_rows: BTreeMap<usize, T>, rows: &PoseRows) -> BTreeMap<usize, T> {
     let frame = |(row, one)| Some((rows.frame_of(row)?, one));
     of_rows.into_iter().filter_map(frame).collect()
+}
+
+/// The constants of the film by which poses were found, where their folder has them.
+fn film_of(poses: Option<&Path>, inputs: &mut Vec<Input>) -> Result<Vec<(String, String)>> {
+    let constants = poses.map(|folder| folder.join("film.csv"));
+    let Some(table) = constants.filter(|table| table.is_file()) else {
+        return Ok(Vec::new());
+    };
+    inputs.push(digest("constants of the film", &table)?);
+    Ok(constants_of_film(&read_text(&table)?))
 }
 
 /// What [`crate::verbs::track`] wrote of a film; rows that are none of it are passed over.
@@ -288,4 +362,31 @@ pub fn doubts(text: &str) -> BTreeMap<usize, String> {
         all.push_str(&why);
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_person_accepted_is_told_and_a_table_of_pose_is_one_of_states() {
+        let states = "frame,component,state,verdict,because\n\
+            1,\"femur\",fixed,good,\"a person accepted it; it was doubtful: jump: 2 mm\"\n\
+            1,\"tibia\",fixed,good,\"a person accepted it; it was doubtful: a rim\"\n\
+            2,\"tibia\",followed,good,\"the edges lie on the outline\"\n";
+        let told = accepted(states);
+        assert_eq!(told.len(), 1);
+        assert_eq!(told[&0], "femur: jump: 2 mm; tibia: a rim");
+
+        let report = "frame,file,x_mm,verdict,because,decided_by\n\
+            1,a.png,0.5,good,\"it lies, on what was seen\",residual\n\
+            2,b.png,,none,\"no outline\",\n";
+        let rows = rows_of_report("the tibia", report).unwrap();
+        let told = doubts(&format!("frame,component,state,verdict,because\n{rows}"));
+        assert_eq!(
+            told.into_iter().collect::<Vec<_>>(),
+            [(1, "the tibia none: no outline".to_owned())]
+        );
+        assert_eq!(rows_of_report("tibia", "frame,verdict\n1,good\n"), None);
+    }
 }

@@ -241,6 +241,7 @@ mod tests {
             film_steps: [[0.1; 6], [-1.0 / 3.0; 6]],
             fit: Fit {
                 met: 1.0 / 3.0,
+                square_px: 1,
                 ..Fit::default()
             },
             misfit_px: 0.3,

@@ -1,0 +1,174 @@
+use super::*;
+use std::string::ToString;
+
+#[test]
+fn one_degree_is_not_several_and_none_is_told_as_a_shift() {
+    for (turn_deg, words) in [(0.4, "12 mm away"), (1.2, "1 degree "), (1.6, "2 degrees")] {
+        let doubt = Doubt::Open {
+            turn_deg,
+            shift_mm: 12.0,
+            other_px: 0.3,
+        };
+        assert!(doubt.to_string().contains(words), "{doubt}");
+    }
+}
+#[test]
+fn what_has_few_pixels_is_no_good_fit() {
+    let judged = |size_px: f64| {
+        let fit = Fit {
+            size_px,
+            met: 1.0,
+            known: 1.0,
+            ..Fit::default()
+        };
+        judge_fit(&fit, true, &Limits::USUAL)
+    };
+    assert_eq!(judged(150.0), Verdict::Good);
+    assert_eq!(judged(7.0), Verdict::Doubtful(Doubt::Small { px: 7.0 }));
+}
+
+#[test]
+fn what_is_asked_is_asked_in_the_squares_that_the_frame_was_looked_at_in() {
+    let fit = |misfit_px, size_px| Fit {
+        misfit_px,
+        size_px,
+        met: 1.0,
+        known: 1.0,
+        square_px: 1,
+        ..Fit::default()
+    };
+    let judged = |fit: Fit, side| judge_fit(&fit.in_pixels(side), true, &Limits::USUAL);
+    for side in [1, 2, 4] {
+        assert_eq!(judged(fit(1.9, 150.0), side), Verdict::Good);
+        let [px, limit_px] = [2.1, 2.0].map(|px| side as f64 * px);
+        let apart = Doubt::Apart { px, limit_px };
+        assert_eq!(judged(fit(2.1, 150.0), side), Verdict::Doubtful(apart));
+        let small = Doubt::Small {
+            px: side as f64 * 19.0,
+        };
+        assert_eq!(judged(fit(0.1, 19.0), side), Verdict::Doubtful(small));
+    }
+}
+
+#[test]
+fn a_model_of_no_knees_size_is_never_good() {
+    let judged = |implausible_width_mm: f64| {
+        let fit = Fit {
+            size_px: 150.0,
+            met: 1.0,
+            known: 1.0,
+            behind_mm: 20.0,
+            implausible_width_mm,
+            ..Fit::default()
+        };
+        judge_fit(&fit, true, &Limits::USUAL).to_string()
+    };
+    assert!(judged(0.0).contains("behind the detector"));
+    assert!(judged(7.93).contains("7.93 mm across"), "{}", judged(7.93));
+}
+
+#[test]
+fn what_lies_beyond_the_frame_is_not_known() {
+    let judged = |beyond: f64| {
+        let fit = Fit {
+            size_px: 150.0,
+            met: 1.0,
+            known: 0.8,
+            beyond,
+            ..Fit::default()
+        };
+        judge_fit(&fit, true, &Limits::USUAL)
+    };
+    assert_eq!(judged(0.2), Verdict::Good);
+    assert!(matches!(judged(0.5), Verdict::Doubtful(Doubt::Unknown { known }) if known == 0.4));
+}
+
+fn candidate(misfit_px: f64, met: f64) -> Candidate {
+    let pose = crate::pose::Pose::IDENTITY;
+    let mut refined = crate::refine::Refined::at(pose);
+    refined.loss = misfit_px * misfit_px / 2.0;
+    Candidate {
+        pose,
+        start: pose,
+        located: None,
+        refined: Some(refined),
+        covariance: None,
+        fit: Fit {
+            size_px: 150.0,
+            met,
+            known: 1.0,
+            misfit_px,
+            ..Fit::default()
+        },
+    }
+}
+
+#[test]
+fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_leaves_it_open() {
+    let judged = |change: fn(&mut Candidate), open: Option<usize>| {
+        let mut all = [candidate(0.1, 1.0), candidate(0.2, 1.0)];
+        change(&mut all[0]);
+        all[1].pose.rotation = crate::math::rotation_by(&[0.0, crate::math::radians(9.0), 0.0]);
+        let open = open.map(|index| OpenRival {
+            index,
+            chosen_px: 0.1,
+            other_px: 0.2,
+        });
+        let reason = super::super::choice::Reason::Only;
+        let choice = Choice {
+            index: 0,
+            reason,
+            open,
+        };
+        judge(&all, &choice, &Limits::USUAL).map(|verdict| match verdict {
+            Verdict::Doubtful(Doubt::Open {
+                turn_deg, other_px, ..
+            }) => (libm::round(turn_deg), other_px > 0.19),
+            Verdict::Doubtful(Doubt::Undetermined) => (-1.0, false),
+            Verdict::Good => (0.0, false),
+            other => panic!("{other}"),
+        })
+    };
+    let known = |one: &mut Candidate| {
+        let mut information = [[0.0; 6]; 6];
+        (0..6).for_each(|k| information[k][k] = 1e6);
+        one.covariance = crate::pose::covariance::PoseCovariance::from_information(&information);
+    };
+    assert_eq!(judged(|_| {}, None), Some((-1.0, false)));
+    assert_eq!(judged(known, None), Some((0.0, false)));
+    assert_eq!(judged(|one| one.refined = None, None), Some((0.0, false)));
+    assert_eq!(judged(known, Some(1)), Some((9.0, true)));
+    assert_eq!(judged(known, Some(7)), Some((0.0, false)));
+    let none = Choice {
+        index: 3,
+        reason: super::super::choice::Reason::Only,
+        open: None,
+    };
+    assert_eq!(judge(&[candidate(0.1, 1.0)], &none, &Limits::USUAL), None);
+}
+
+#[test]
+fn what_does_not_fit_at_all_is_no_rival_while_another_does() {
+    let misfits = |mets: [f64; 2]| {
+        let all = mets.map(|met| candidate(0.5, met));
+        let rivals = contenders(&all);
+        [0, 1].map(|k| rivals[k].residual_px.is_finite())
+    };
+    let least = Limits::USUAL.least_met;
+    assert_eq!(misfits([least, least]), [true; 2]);
+    assert_eq!(misfits([least, least - 0.01]), [true, false]);
+    assert_eq!(misfits([least - 0.01, least]), [false, true]);
+    assert_eq!(misfits([least - 0.01, least - 0.02]), [true; 2]);
+}
+
+#[test]
+fn parts_of_an_outline_are_told_in_percent() {
+    let unknown = Doubt::Unknown { known: 0.4 }.to_string();
+    assert!(unknown.contains("only 40 % of"), "{unknown}");
+    let refused = Refusal::NoFit {
+        misfit_px: 3.21,
+        met: 0.25,
+    };
+    let refused = refused.to_string();
+    assert!(refused.contains("3.2 px, and 25 % of"), "{refused}");
+}
