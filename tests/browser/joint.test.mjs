@@ -195,7 +195,7 @@ async function saved(page, truth) {
   const faults = [
     '1 frame without a pose; they stay empty: 4',
     '7 frames with a pose from a file, which does not say how it was found: 1–3, 5–8',
-    '7 frames that nobody has checked: 1–3, 5–8',
+    '7 frames of which nobody has checked both poses: 1–3, 5–8',
   ];
   await until(() => sheet.getByRole('listitem').allInnerTexts(), (texts) => isDeepStrictEqual(texts, faults), faults.join('; '));
   await screenshot(page, 'export joint');

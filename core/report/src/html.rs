@@ -34,6 +34,9 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
          <title>{name}: joint motion</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}: joint motion</h1>\n<p>{}</p>\n",
         escaped(&summary(film))
     );
+    for remark in &film.remarks {
+        let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(remark));
+    }
     let _ = write!(
         out,
         "<h2>Figure</h2>\n<figure>\n{}<figcaption>{}</figcaption></figure>\n",
@@ -311,7 +314,10 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
         "The centre of rotation takes what errs from frame to frame as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
     );
     let verdicts = film.verdicts_told();
-    let remarks = verdicts.iter().chain(&facts.remarks);
+    // Those of the knee stand at the top.
+    let others = facts.remarks.iter();
+    let others = others.filter(|remark| !film.remarks.contains(remark));
+    let remarks = verdicts.iter().chain(others);
     for remark in remarks.chain(&film.origins_told()) {
         say(remark);
     }

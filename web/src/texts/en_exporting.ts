@@ -72,7 +72,7 @@ export const exporting = {
     unrefined: 'with a pose that was not refined',
     unknown: 'with a pose from a file, which does not say how it was found',
     doubtful: 'with a doubtful pose',
-    unchecked: 'that nobody has checked',
+    unchecked: 'of which nobody has checked both poses',
     fault: (count: number, what: string, which: string) => `${count} ${count === 1 ? 'frame' : 'frames'} ${what}: ${which}`,
     none: 'All poses are refined, good and checked.',
     waiting: (frames: number) => `${frames} ${frames === 1 ? 'frame is' : 'frames are'} still being worked out.`,

@@ -275,7 +275,16 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
     }
     let (page, heading) = told(&accepted);
     assert!(page.contains("1 doubtful, 2 that were until a person accepted them"));
-    let frames = "accepted: 4 (tibia: ambiguous, perhaps), 5 (tibia: ambiguous, perhaps).";
+    accepted.remarks.push("Side: <left>?".to_owned());
+    let facts = Facts {
+        remarks: accepted.remarks.clone(),
+        ..Facts::default()
+    };
+    // At the top, and not once more.
+    let parts = html(&accepted, &facts);
+    let parts: Vec<&str> = parts.split("Side: &lt;left&gt;?").collect();
+    assert!(parts.len() == 2 && !parts[0].contains("<h2>"));
+    let frames = "accepted: 14 (tibia: ambiguous, perhaps), 15 (tibia: ambiguous, perhaps).";
     assert!(
         page.contains(frames) && heading.contains(frames),
         "{heading}"

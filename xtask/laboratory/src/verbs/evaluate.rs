@@ -85,8 +85,12 @@ pub fn run(args: Args) -> Result<()> {
     let table = evaluate(&args.study, &request)?;
     match table.rows.is_empty() {
         true => println!(
-            "{}: no component has a reference; its poses are written and compared with nothing",
-            table.study
+            "{}: no component has a reference; its poses are written to {} and compared with nothing",
+            table.study,
+            args.poses.as_deref().map_or_else(
+                || "the current folder (--poses names another)".to_owned(),
+                |folder| folder.display().to_string()
+            )
         ),
         false => print::print(&table),
     }

@@ -48,7 +48,7 @@ pub struct Args {
     /// Folder for what is written; made if absent
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Frames a second; without it those that the study or its DICOM frames state
+    /// Frames a second, of the frames at hand, in place of what the study or its DICOM frames state
     #[arg(long, value_name = "HZ")]
     pub fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
