@@ -12,6 +12,7 @@ export const check = {
   joint: (flexion: string, abduction: string, internal: string) => `flexion ${flexion}°, abduction ${abduction}°, internal rotation ${internal}°`,
   jointShort: (flexion: string, abduction: string, internal: string) => [`flex ${flexion}°`, `abd ${abduction}°`, `int ${internal}°`],
   noJoint: 'no joint angles: the other component, the side of the body or the axes are not known',
+  despite: 'Another one leaves less in this frame by itself: the frames beside it, the other component and the whole film spoke for the one that is chosen.',
   accept: 'Accept',
   acceptTitle: 'It is right: mark it as checked, and go on to the next (Y). It counts in figure, report and tables; what made it doubtful stays told there.',
   absent: 'Not there',

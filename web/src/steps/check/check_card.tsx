@@ -1,5 +1,5 @@
 import { type ComponentChildren, Fragment } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { useApp } from '../../commands/app';
 import { edit, isInCheck } from '../../commands/check_keys';
 import { knownAxes } from '../../document/axes';
@@ -16,7 +16,7 @@ import { formatNumber } from '../../texts/numbers';
 import { later } from '../../texts/later';
 import { asSentence } from '../../texts/sentences';
 import { texts } from '../../texts/texts';
-import { drawRival, type RivalScene } from './rival_picture';
+import { drawRival, isAtLeft, type RivalScene } from './rival_picture';
 import { otherThan } from '../../terms/component';
 import '../../styles/check.css';
 
@@ -55,17 +55,33 @@ function Lacking({ state, result, counted: { at, of } }: { state: State; result:
 }
 
 function Doubtful({ state, result, counted: { at, of } }: { state: State; result: Posed; counted: Counted }) {
+  const { services } = useApp();
   const words = later.check;
+  const scene = sceneOf(state, services.studio);
+  const pose = result.candidates[result.chosen]?.pose ?? null;
+  // Where the implant is not.
+  const side = useMemo(() => (scene && pose && isAtLeft(services.studio, scene, pose) ? 'right' : 'left'), [scene?.frame.id, scene?.model, pose, scene && services.studio.holdsFrame(scene.frame.id)]);
   return (
-    <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
+    <section class={`guide check at-${side} ${state.ui.component}`} aria-label={words.region}>
       <p class="guide-title">{at === 0 ? words.taken : words.title(at, of)}</p>
       <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
       {result.candidates.length > 1 && <Rivals state={state} result={result} />}
       {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
+      {result.from === 'film' && leavesMore(result) && <p class="guide-text quiet check-why">{words.despite}</p>}
       {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
       <CheckButtons accept={[words.accept, words.acceptTitle]} edit={[words.edit, words.editTitle]} />
     </section>
   );
+}
+
+/** Whether a rival leaves less in this frame than the pose that is chosen. */
+function leavesMore({ candidates, chosen }: Posed): boolean {
+  const own = misfitOf(candidates[chosen]);
+  return own !== null && candidates.some((one) => (misfitOf(one) ?? own) < own);
+}
+
+function misfitOf(candidate: Candidate | undefined): number | null {
+  return candidate?.judged?.misfit ?? candidate?.residual ?? null;
 }
 
 /** Word and explanation. */
@@ -110,16 +126,21 @@ function AskSide() {
 /** Keys for more there are not. */
 const MOST = 3;
 
-function Rivals({ state, result }: { state: State; result: Posed }) {
-  const { services } = useApp();
+/** What the selected component is drawn with in the current frame. */
+function sceneOf(state: State, studio: Studio): RivalScene | null {
   const { present: doc } = state.history;
   const { component } = state.ui;
   const frame = currentFrame(state);
   const camera = cameraOf(doc, frame);
   const model = doc.components[component].model?.sha256;
-  const window = doc.window ?? (frame && services.studio.frameFacts(frame.id)?.window) ?? null;
+  const window = doc.window ?? (frame && studio.frameFacts(frame.id)?.window) ?? null;
+  return frame && camera && model && window ? { frame, camera, component, model, window } : null;
+}
+
+function Rivals({ state, result }: { state: State; result: Posed }) {
+  const { services } = useApp();
   const chosen = result.candidates[result.chosen]?.pose ?? null;
-  const scene = frame && camera && model && window ? { frame, camera, component, model, window } : null;
+  const scene = sceneOf(state, services.studio);
   return (
     <div class="check-rivals" role="radiogroup" aria-label={later.check.rivals}>
       {result.candidates.slice(0, MOST).map((candidate, index) => (
@@ -143,7 +164,7 @@ function Rival({ index, candidate, chosen, beside, scene, motion }: RivalProps) 
   const { actions } = useApp();
   const words = later.check;
   const angles = motion && ([motion.flexion, motion.abduction, motion.internal].map((value) => formatNumber(value, 1)) as [string, string, string]);
-  const misfit = candidate.judged?.misfit ?? candidate.residual;
+  const misfit = misfitOf(candidate);
   return (
     <button
       type="button"

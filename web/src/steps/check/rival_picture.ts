@@ -21,14 +21,13 @@ const MARGIN = 0.2;
 /** Draws the part of the frame that a model covers, with its border there, and thinly that of the pose `beside`. Nothing where it cannot be drawn. */
 export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: RivalScene, pose: PoseNumbers, beside: PoseNumbers | null): void {
   const context = canvas.getContext('2d');
-  const { frame, camera, component, model, window } = scene;
+  const { frame, component, window } = scene;
   if (!context || !studio.holdsFrame(frame.id)) return;
   const whole = scratch(frame);
   if (!whole) return;
-  const { rgb, light } = COMPONENT_COLOURS[component];
-  const borderAt = (at: PoseNumbers) => Array.from(studio.paintSilhouette(() => whole, model, camera, at, rgb)?.border ?? []);
-  const border = borderAt(pose);
-  const other = beside ? borderAt(beside) : [];
+  const { light } = COMPONENT_COLOURS[component];
+  const border = borderAt(studio, scene, whole, pose);
+  const other = beside ? borderAt(studio, scene, whole, beside) : [];
   if (border.length === 0) return;
   const [left, top, size] = squareAround(border);
   studio.paintFrame(whole, frame.id, window);
@@ -39,6 +38,20 @@ export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: Riva
   context.drawImage(whole.canvas, 0, 0);
   drawBorder(context, other, 0.75 / scale, BESIDE);
   drawBorder(context, border, 1.5 / scale, light);
+}
+
+/** Whether most of the model is in the left half of the frame; false where it cannot be drawn. */
+export function isAtLeft(studio: Studio, scene: RivalScene, pose: PoseNumbers): boolean {
+  const whole = studio.holdsFrame(scene.frame.id) ? scratch(scene.frame) : null;
+  const border = whole ? borderAt(studio, scene, whole, pose) : [];
+  if (border.length === 0) return false;
+  const [left, , size] = squareAround(border);
+  return left + size / 2 < scene.frame.width / 2;
+}
+
+/** Columns and rows by turns; none where the model cannot be drawn. */
+function borderAt(studio: Studio, { model, camera, component }: RivalScene, whole: NonNullable<ReturnType<typeof scratch>>, at: PoseNumbers): readonly number[] {
+  return Array.from(studio.paintSilhouette(() => whole, model, camera, at, COMPONENT_COLOURS[component].rgb)?.border ?? []);
 }
 
 /** What differs from the pose that is chosen is what is to be looked at. */
