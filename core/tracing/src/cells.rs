@@ -55,3 +55,29 @@ impl Cells {
         Some(sum / 4.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::image::frame::Frame;
+
+    #[test]
+    fn a_cell_has_the_grey_of_its_middle_where_the_picture_is_a_slope() {
+        let (width, height) = (640, 400);
+        let pixels: std::vec::Vec<u16> = (0..width * height)
+            .map(|k| (20 * (k % width) + 50 * (k / width)) as u16)
+            .collect();
+        let frame = Frame::new(&pixels, width, height, width).expect("fits");
+        let camera = Camera::new(width, height, [2000.0; 2], [320.0, 200.0]).expect("valid");
+        let cells = Cells::of(&camera);
+        assert_eq!((cells.columns, cells.rows, cells.side), (256, 160, 2.5));
+        for (column, row) in [(1, 1), (100, 30), (254, 158)] {
+            let at = cells.middle(column, row);
+            let slope = 20.0 * (at.column - 0.5) + 50.0 * (at.row - 0.5);
+            let grey = cells.grey(&frame, column, row).expect("in the picture");
+            assert!((grey - slope).abs() < 0.01, "{grey}, {slope}");
+        }
+        // No part of a pixel beyond it is asked.
+        assert!(cells.grey(&frame, 0, 0).is_some_and(|grey| grey >= 0.0));
+    }
+}

@@ -78,6 +78,13 @@ mod tests {
     }
 
     #[test]
+    fn half_of_what_is_counted_lies_below_the_median() {
+        assert_eq!(median_bin(&[3, 1, 0, 4], 8), 2.0);
+        assert_eq!(median_bin(&[3, 0, 4, 1], 8), 2.25);
+        assert_eq!(median_bin(&[0, 0], 0), 0.0);
+    }
+
+    #[test]
     fn a_frame_of_one_grey_has_the_noise_of_rounding() {
         let frame = Frame::new(&[7u8; 64], 8, 8, 8).expect("fits");
         assert_eq!(noise(&frame), ROUNDING);

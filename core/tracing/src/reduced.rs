@@ -205,6 +205,7 @@ mod tests {
         }
         let reduction = Reduction::of(4.0 * SIZE, &camera());
         assert_eq!(reduction.times, 4.0);
+        assert!(reduction.is_any());
         let reduced = reduction.camera();
         assert_eq!([reduced.width(), reduced.height()], [SIDE / 4; 2]);
         let at = [3.0, -2.0, -900.0];
@@ -270,6 +271,7 @@ mod tests {
             pixels: &[],
             unknown: &[],
         };
-        assert!(reduction.frame(nothing).is_err());
+        let lack = reduction.frame(nothing).err().expect("nothing is there");
+        assert_eq!((lack.needed, lack.given), (side * side, 0));
     }
 }

@@ -86,6 +86,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn between_the_middles_of_cells_a_plane_is_itself_and_beyond_them_the_outermost() {
+        let grid = Grid {
+            columns: 6,
+            rows: 5,
+        };
+        let plane = |column: f64, row: f64| 1000.0 + 400.0 * column + 4000.0 * row;
+        let values: std::vec::Vec<u32> = (0..grid.cells())
+            .map(|k| plane((k % 6) as f64, (k / 6) as f64) as u32)
+            .collect();
+        for (column, row) in [(12, 20), (15, 9), (33, 28), (5, 31)] {
+            let [x, y] = [column, row].map(|at| (at as f64 + 0.5) / 8.0 - 0.5);
+            let between = f64::from(grid.between(&values, 8, column, row));
+            assert!((between - plane(x, y)).abs() <= 1.0, "{between}");
+        }
+        assert_eq!(grid.between(&values, 8, 0, 0), 1000);
+        assert_eq!(grid.between(&values, 8, 47, 39), 19_000);
+    }
+
+    #[test]
     fn a_dark_thing_before_a_background_that_changes_has_one_depth() {
         let (width, height) = (400, 320);
         let background = |column: usize, row: usize| 20_000 + 60 * column + 30 * row;

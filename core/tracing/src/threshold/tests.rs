@@ -258,3 +258,48 @@ proptest! {
         prop_assert!(line.len() < 4 || crossing.is_none(), "{crossing:?}");
     }
 }
+
+#[test]
+fn a_level_between_two_pixels_is_passed_where_a_slope_has_it() {
+    let mut cells: Vec<u16> = Vec::new();
+    for _ in 0..40 {
+        cells.extend((0..60).map(|column: u16| 100 + 10 * column.saturating_sub(15)));
+    }
+    let drawn = SyntheticFrame::new(60, 40, 100.0);
+    let (_, scale) = smoothed(&drawn);
+    let frame = Smoothed::from_cells(&cells, 60, 40, scale).expect("fits");
+    for (tenths, inside) in [(133, Inside::Dark), (217, Inside::Bright)] {
+        let threshold = Threshold {
+            inside,
+            level: f64::from(tenths) / scale.per_grey(),
+            tolerance: 0.0,
+            ..DARK
+        };
+        let cut = Cut::new(&frame, inside, threshold.level);
+        let (words, points) = threshold_needed(60, 40);
+        let mut words = std::vec![0; words];
+        let mut line = std::vec![Vertex::default(); points];
+        let mut marks = std::vec![false; points];
+        let mut places = line.clone();
+        let mut out = List::new(&mut places);
+        let memory = ThresholdMemory {
+            words: &mut words,
+            line: &mut line,
+            marks: &mut marks,
+        };
+        let at = if cut.holds(100) { 3.5 } else { 56.5 };
+        let found = region_at(&frame, Point::new(at, 20.5), &threshold, memory, &mut out);
+        assert!(found.expect("valid").is_some());
+        // The middle of column 15 has 100, each next one 10 more.
+        let passed = 15.5 + (f64::from(tenths) - 100.0) / 10.0;
+        // At the frame's border the outline turns half a pixel before it.
+        let inner = out.as_slice().iter().map(|vertex| vertex.at);
+        let near = inner.filter(|at| at.column > 1.0 && at.column < 59.0);
+        let near = near.filter(|at| at.row > 1.0 && at.row < 39.0);
+        let off: Vec<f64> = near.map(|at| (at.column - passed).abs()).collect();
+        assert!(
+            !off.is_empty() && off.iter().all(|&off| off < 0.02),
+            "{off:?}"
+        );
+    }
+}

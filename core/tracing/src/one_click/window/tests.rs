@@ -242,3 +242,36 @@ fn the_ends_of_the_scale_leave_out_a_few_pixels() {
         "{dark} {bright}"
     );
 }
+
+#[test]
+fn what_is_not_of_the_picture_is_as_the_nearest_that_is() {
+    let (columns, rows) = (7, 6);
+    let window = Window {
+        left: 0,
+        top: 0,
+        width: columns,
+        height: rows,
+    };
+    let own = |index: usize| 100 + 3 * index as u16;
+    // Some seen, by chance; more and fewer of them, and whole rows without any.
+    for seed in 0..400_u32 {
+        let mixed = |k: usize| (seed * 2_654_435 + k as u32 * 40_503).wrapping_mul(2_246_822_519);
+        let is_seen = |k: usize| mixed(k / columns + 90) % 3 > 0 && mixed(k) >> 29 <= seed % 8;
+        let mut grey: std::vec::Vec<u16> = (0..window.pixels()).map(own).collect();
+        repeat_borders(&mut grey, &window, is_seen);
+        let nearest = |row: usize| {
+            let seen = (0..rows).filter(|row| (0..columns).any(|c| is_seen(row * columns + c)));
+            // Of two as near the one below.
+            seen.min_by_key(|&other| (other.abs_diff(row), rows - other))
+        };
+        for (index, &value) in grey.iter().enumerate() {
+            let (column, row) = (index % columns, index / columns);
+            let expected = nearest(row).map_or(index, |row| {
+                let seen = (0..columns).filter(|c| is_seen(row * columns + c));
+                let at = seen.min_by_key(|&other| (other.abs_diff(column), columns - other));
+                row * columns + at.expect("the row has one")
+            });
+            assert_eq!(value, own(expected), "seed {seed}, {column}, {row}");
+        }
+    }
+}
