@@ -104,6 +104,7 @@ fn poses_are_put_to_the_frames_that_their_table_names() {
         "{said}"
     );
     assert_eq!(right, letters);
+    compared(&folder);
 
     let table = folder
         .read("letters/track.csv")
@@ -124,6 +125,42 @@ fn poses_are_put_to_the_frames_that_their_table_names() {
         let (code, said) = folder.run(words);
         assert!(code == 1 && said.contains("of the file f12.png"), "{said}");
     }
+}
+
+/// A pose of the second row, which is of the last frame, is wrong and called doubtful: by frames none is wrong and good.
+fn compared(folder: &Folder) {
+    let [table, poses] = ["track.csv", "femur.jts"].map(|name| format!("letters/{name}"));
+    let good = "2,\"femur\",followed,good,\"of f10.png\"";
+    let (states, known) = (folder.read(&table), folder.read(&poses));
+    let doubtful = states.replace(good, &good.replace("followed,good", "doubtful,doubtful"));
+    assert_ne!(states, doubtful);
+    let mut lines: Vec<String> = known.lines().map(str::to_owned).collect();
+    let second = lines.len() - NAMES.len() + 1;
+    let (x, rest) = lines[second].split_once(',').expect("numbers");
+    let moved = x.trim().parse::<f64>().expect("a number") + 20.0;
+    lines[second] = format!("{moved},{rest}");
+    fs::write(folder.0.join(&table), doubtful).expect("a table");
+    fs::write(folder.0.join(&poses), lines.join("\n") + "\n").expect("poses");
+
+    let words = [
+        "compare", "--study", ".", "--poses", "letters", "--with", "right",
+    ];
+    let (code, said) = folder.run(&words);
+    assert!(
+        code == 0 && !said.contains("wrong and called good"),
+        "{said}"
+    );
+    assert!(
+        said.contains("| femur | 3 | 0.00 | 0.00 | 1 | 0 |"),
+        "{said}"
+    );
+    fs::write(folder.0.join(&table), states).expect("a table");
+    let (_, said) = folder.run(&words);
+    assert!(
+        said.contains("femur: wrong and called good in frames 3"),
+        "{said}"
+    );
+    fs::write(folder.0.join(&poses), known).expect("poses");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Verb `compare`: poses of a followed film against its reference poses.
+//! Verb `compare`: poses of a followed film against its reference poses, or against other poses.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use fluoropose::math::{Vector3, dot, norm, scale, subtract};
 use fluoropose::pose::{Pose, geodesic_deg};
 use serde::Serialize;
 
-use crate::files::{Component, Study, csv_fields, read_poses_of, read_text, write_json};
+use crate::files::{Component, PoseRows, Study, csv_fields, read_poses_of, read_text, write_json};
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::options::study_files;
 
@@ -25,8 +25,9 @@ ray to it, the median of all that were found; wrong and good counts frames more 
 #[derive(clap::Args)]
 #[command(
     after_help = format!("A row for each component that has a reference: {COLUMNS} Frames that are wrong and good are listed below. The files of the poses are \
-those that `track` writes: track.csv tells poses and verdicts.\n\n\
-Example:\n  cargo xtask compare --study study.toml --poses tracked")
+those that `track` writes: track.csv tells poses and verdicts. Without it all poses count as good, and that is said.\n\n\
+Example:\n  cargo xtask compare --study study.toml --poses tracked\n  \
+cargo xtask compare --study study.toml --poses tracked --with by-hand")
 )]
 pub struct Args {
     /// Study file, or its folder
@@ -35,6 +36,9 @@ pub struct Args {
     /// Folder that `track` wrote to
     #[arg(long, value_name = "DIR")]
     poses: PathBuf,
+    /// Folder of other poses, COMPONENT.jts each, in place of the study's references
+    #[arg(long, value_name = "DIR")]
+    with: Option<PathBuf>,
     /// Write the rows as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -45,10 +49,10 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
-    let rows = compare(&args.study, &args.poses)?;
+    let rows = compare(&args.study, &args.poses, args.with.as_deref())?;
     ensure!(
         !rows.is_empty(),
-        "no component of {} has reference poses to compare with; name their file as reference in its [[component]]",
+        "no component of {} has reference poses to compare with; name their file as reference in its [[component]], or a folder of poses by --with",
         args.study.display()
     );
     println!("{HEADING}");
@@ -200,27 +204,60 @@ struct Found {
     is_good: bool,
 }
 
-/// Compares what `track` wrote to a folder with a study's references.
+/// Compares what `track` wrote to a folder with a study's references, or with the poses of another folder.
 ///
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
-pub fn compare(study: &Path, poses: &Path) -> Result<Vec<Row>> {
+pub fn compare(study: &Path, poses: &Path, with: Option<&Path>) -> Result<Vec<Row>> {
     let study = Study::read_quietly(study)?;
+    let table = poses.join("track.csv");
+    let states = match table.is_file() {
+        true => Some(read_text(&table)?),
+        false => {
+            eprintln!(
+                "{} has no track.csv: its poses all count as good",
+                poses.display()
+            );
+            None
+        }
+    };
+    let frames = study.frames.as_deref();
+    let order = PoseRows::of(poses, frames)?;
+    let goods = |component: &str| -> Result<Option<Vec<bool>>> {
+        let Some(states) = &states else {
+            return Ok(None);
+        };
+        let by_row = goods(states, component)?;
+        // As poses are read: by the frames that their rows are of.
+        let by_frame = order
+            .as_ref()
+            .map(|order| order.rows(&by_row))
+            .transpose()?;
+        Ok(Some(by_frame.unwrap_or(by_row)))
+    };
     let mut rows = Vec::new();
     for component in &study.components {
-        rows.extend(of_component(component, poses, study.frames.as_deref())?);
+        let file = |folder: &Path| folder.join(format!("{}.jts", component.name));
+        let reference = with.map(file).or_else(|| component.reference.clone());
+        if let Some(reference) = reference {
+            let files = [file(poses), reference];
+            let good = goods(&component.name)?;
+            rows.push(of_component(component, files, good, frames)?);
+        }
     }
     Ok(rows)
 }
 
-fn of_component(component: &Component, poses: &Path, frames: Option<&Path>) -> Result<Option<Row>> {
-    let Some(reference) = &component.reference else {
-        return Ok(None);
-    };
+fn of_component(
+    component: &Component,
+    [poses, reference]: [PathBuf; 2],
+    good: Option<Vec<bool>>,
+    frames: Option<&Path>,
+) -> Result<Row> {
     let name = &component.name;
-    let reference = read_poses_of(reference, frames)?;
-    let found = read_poses_of(&poses.join(format!("{name}.jts")), frames)?;
-    let good = goods(&read_text(&poses.join("track.csv"))?, name)?;
+    let reference = read_poses_of(&reference, frames)?;
+    let found = read_poses_of(&poses, frames)?;
+    let good = good.unwrap_or_else(|| vec![true; found.len()]);
     let (known, there) = (reference.len(), found.len());
     ensure!(
         known == there && good.len() == there,
@@ -233,7 +270,7 @@ fn of_component(component: &Component, poses: &Path, frames: Option<&Path>) -> R
         .map(|(pose, is_good)| Found { pose, is_good })
         .collect();
     let middle = component.read_model()?.as_model().bounds().centre;
-    Ok(Some(Row::of(name, &middle, &reference, &found)))
+    Ok(Row::of(name, &middle, &reference, &found))
 }
 
 /// Whether each frame of a component is good, by the table of states.

@@ -91,7 +91,7 @@ pub(super) fn follow(
         cpu_s,
         errors,
     };
-    let rows: Vec<Row> = compare(&study, &out)?.into_iter().map(row).collect();
+    let rows: Vec<Row> = compare(&study, &out, None)?.into_iter().map(row).collect();
     rows.iter().for_each(|row| println!("{row}"));
     Ok(rows)
 }
