@@ -266,7 +266,7 @@ impl FilmFollower {
         FollowedFilm {
             residuals: cells
                 .iter()
-                .map(|cell| Some(in_pixels(cell.found()?).fit.residual_px))
+                .map(|cell| Some(in_pixels(cell.found()?).misfit_px))
                 .collect(),
             uncertainties: uncertainties.collect(),
             rivals: (0..cells.len())
@@ -340,7 +340,7 @@ impl FollowedFilm {
         Some(uncertainty.to_vec())
     }
 
-    /// Root mean square of what remains between outline and edges, pixels.
+    /// What remains between outline and edges, pixels: by what poses of a frame are compared, as in the commands' `track.csv`.
     pub fn residual(&self, frame: usize) -> Option<f64> {
         *self.residuals.get(frame)?
     }
@@ -351,10 +351,10 @@ impl FollowedFilm {
         Some(to_numbers(&EulerPose::from(rival.pose)).to_vec())
     }
 
-    /// What remains between that one's outline and edges, pixels.
+    /// The same of that one.
     #[wasm_bindgen(js_name = rivalResidual)]
     pub fn rival_residual(&self, frame: usize) -> Option<f64> {
-        Some((*self.rivals.get(frame)?)?.fit.residual_px)
+        Some((*self.rivals.get(frame)?)?.misfit_px)
     }
 
     /// How bad a frame is: above 1 it is doubtful, and the worst have the most.

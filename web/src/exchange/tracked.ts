@@ -17,7 +17,7 @@ export function statesOf(doc: Doc): string {
       if (!cell.result) return [];
       const isChecked = checkState(cell, markOf(doc, { frameId: frame.id, component })) === 'yes';
       const { residual = null } = chosenCandidate(cell) ?? {};
-      const found = [...stateOf(cell, isChecked), ...numbersOf(chosenCandidate(cell)), residual, null, frame.name, frame.indexInSource + 1];
+      const found = [...stateOf(cell, isChecked), ...numbersOf(chosenCandidate(cell)), residual, badnessOf(cell), frame.name, frame.indexInSource + 1];
       const method = cell.result.kind === 'posed' ? methodOf(cell.result) : null;
       return [[index + 1, component, ...found, method, Number(isChecked)]];
     }),
@@ -52,6 +52,11 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
   const isGiven = isChecked || isGivenBy(result) || result.chosen !== 0;
   const because = (result.chosen === 0 && verdict?.because) || texts.follow.fixed(null);
   return [isGiven ? 'fixed' : result.from === 'film' ? 'followed' : 'found', 'good', because];
+}
+
+/** How much speaks against a pose that was followed. */
+function badnessOf({ result }: Cell): number | null {
+  return result?.kind === 'posed' && result.chosen === 0 ? (result.doubt ?? null) : null;
 }
 
 function isGivenBy({ from }: Posed): boolean {

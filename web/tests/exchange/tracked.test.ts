@@ -25,7 +25,7 @@ function film(): Store {
   store.perform(addFrames(['a', 'b', 'c'].map((id) => ({ id, name: `${id}.png`, source: id, indexInSource: 0, width: 8, height: 8 }))));
   const set = (frameId: string, component: ComponentName, result: Result) => store.amend((doc) => withCell(doc, { frameId, component }, { outline: null, result, resultOf: null }));
   set('a', 'femur', posed([...UPPER, ...FILM]));
-  set('a', 'tibia', posed(UPPER, { verdict: { word: 'doubtful', because: 'a rim, "perhaps"' } }));
+  set('a', 'tibia', posed(UPPER, { verdict: { word: 'doubtful', because: 'a rim, "perhaps"' }, doubt: 1.5 }));
   set('b', 'femur', posed([...UPPER, ...FILM.map(() => NaN)]));
   set('b', 'tibia', { kind: 'failed', origin: 'o', sentence: 'It is not there.' });
   store.perform(toggleChecked({ frameId: 'a', component: 'femur' }));
@@ -38,7 +38,7 @@ describe('poses as the commands take them', () => {
     expect(head).toMatch(/^frame,component,state,verdict,because,x_mm,.*,file,frame_of_file,method,checked$/);
     expect(rows).toEqual([
       '1,femur,fixed,good,it fits,1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,a.png,1,followed through the film,1',
-      '1,tibia,doubtful,doubtful,"a rim, ""perhaps""",1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,a.png,1,followed through the film,0',
+      '1,tibia,doubtful,doubtful,"a rim, ""perhaps""",1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,1.5,a.png,1,followed through the film,0',
       '2,femur,followed,good,it fits,1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,b.png,1,followed through the film,0',
       '2,tibia,no pose,none,It is not there.,,,,,,,,,,,,,,,b.png,1,,0',
     ]);
