@@ -58,6 +58,8 @@ pub enum Doubt {
     Unmet {
         /// That part of the known outline.
         part: f64,
+        /// How far away it was looked for, pixels.
+        within_px: f64,
     },
     /// The outlines lie farther apart than those of a good fit.
     Apart {
@@ -182,12 +184,12 @@ impl Doubt {
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Unmet { part } => {
+            Self::Unmet { part, within_px } => {
                 let percent = Decimal::new(100.0 * part, 0);
                 write!(
                     f,
                     "{percent} % of the model's outline has no counterpart within {} px: is a part hidden or cut off, or is it another implant?",
-                    Decimal::brief(MET_WITHIN_PX)
+                    Decimal::brief(within_px)
                 )
             }
             Self::Apart { px, limit_px } => {
@@ -337,6 +339,7 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     if fit.met < limits.good_met {
         return Some(Doubt::Unmet {
             part: 1.0 - fit.met,
+            within_px: side * MET_WITHIN_PX,
         });
     }
     let apart = |px: f64, limit_px: f64| (px > limit_px).then_some(Doubt::Apart { px, limit_px });

@@ -1,4 +1,5 @@
 use super::*;
+use std::format;
 use std::string::ToString;
 
 #[test]
@@ -43,6 +44,12 @@ fn what_is_asked_is_asked_in_the_squares_that_the_frame_was_looked_at_in() {
         let [px, limit_px] = [2.1, 2.0].map(|px| side as f64 * px);
         let apart = Doubt::Apart { px, limit_px };
         assert_eq!(judged(fit(2.1, 150.0), side), Verdict::Doubtful(apart));
+        let unmet = Fit {
+            met: 0.8,
+            ..fit(0.1, 150.0)
+        };
+        let within = format!("within {} px", 3 * side);
+        assert!(judged(unmet, side).to_string().contains(&within));
         let small = Doubt::Small {
             px: side as f64 * 19.0,
         };
