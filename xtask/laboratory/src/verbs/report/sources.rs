@@ -1,9 +1,10 @@
 //! What a report is made from: models, poses, their covariances, what is doubtful, and the digests of all of these.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -83,7 +84,7 @@ impl Sources {
             bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");
         }
         let states = match poses {
-            Some(folder) => states(folder, [&femur.name, &tibia.name], &mut inputs)?,
+            Some(folder) => states(folder, [&femur, &tibia], &mut inputs)?,
             None => None,
         };
         let has_verdicts = states.is_some();
@@ -123,42 +124,73 @@ impl Sources {
 }
 
 /// The table of states in a folder of poses: what `track` and the page write, or what `pose --report` writes of both components, as COMPONENT.csv.
-fn states(folder: &Path, components: [&str; 2], inputs: &mut Vec<Input>) -> Result<Option<String>> {
+///
+/// # Errors
+/// For tables of other poses.
+fn states(folder: &Path, bodies: [&Body; 2], inputs: &mut Vec<Input>) -> Result<Option<String>> {
     let table = folder.join("track.csv");
     if table.is_file() {
         inputs.push(digest("states of the frames", &table)?);
         return Ok(Some(read_text(&table)?));
     }
     let mut all = String::from("frame,component,state,verdict,because\n");
-    for component in components {
-        let table = folder.join(format!("{component}.csv"));
+    for Body { name, poses, .. } in bodies {
+        let table = folder.join(format!("{name}.csv"));
         let rows = match table.is_file() {
-            true => rows_of_report(component, &read_text(&table)?),
+            true => rows_of_report(name, poses, &read_text(&table)?)
+                .with_context(|| format!("in {}", table.display()))?,
             false => None,
         };
         let Some(rows) = rows else { return Ok(None) };
-        inputs.push(digest(&format!("verdicts of the {component}"), &table)?);
+        inputs.push(digest(&format!("verdicts of the {name}"), &table)?);
         all.push_str(&rows);
     }
     Ok(Some(all))
 }
 
+/// Poses are one where their places are so near, mm: tables are rounded.
+const ONE_MM: f64 = 0.01;
+
 /// The rows of a table of `pose --report` as those of `track.csv`; `None` where it is no such table.
-fn rows_of_report(component: &str, table: &str) -> Option<String> {
+///
+/// # Errors
+/// Where it is of other poses, whose verdicts say nothing of these.
+fn rows_of_report(name: &str, poses: &[Option<Pose>], table: &str) -> Result<Option<String>> {
     let mut lines = table.lines();
-    let heading = csv_fields(lines.next()?);
+    let heading = csv_fields(lines.next().unwrap_or_default());
     let place = |name: &str| heading.iter().position(|one| one == name);
-    let places = [place("frame")?, place("verdict")?, place("because")?];
-    let row = |line: &str| {
-        let fields = csv_fields(line);
-        let [frame, verdict, because] = places.map(|place| fields.get(place));
-        let (frame, verdict, because) = (frame?, verdict?, because?);
-        let (component, because) = (quoted(component), quoted(because));
-        Some(format!(
-            "{frame},{component},{verdict},{verdict},{because}\n"
-        ))
+    let names = ["frame", "verdict", "because", "x_mm", "y_mm", "z_mm"];
+    let places: Option<Vec<usize>> = names.into_iter().map(place).collect();
+    let Some(places) = places else {
+        return Ok(None);
     };
-    Some(lines.filter_map(row).collect())
+    let lines: Vec<&str> = lines.collect();
+    ensure!(
+        lines.len() == poses.len(),
+        "{} frames, but {name}.jts has {}",
+        lines.len(),
+        poses.len()
+    );
+    let mut rows = String::new();
+    for (line, pose) in lines.into_iter().zip(poses) {
+        let fields = csv_fields(line);
+        let cell = |k: usize| fields.get(places[k]).map_or("", String::as_str);
+        let told: Vec<f64> = (3..6).flat_map(|k| cell(k).parse()).collect();
+        let known = pose.map_or(Vec::new(), |pose| pose.translation.to_vec());
+        let mut off = told.iter().zip(&known).map(|(a, b)| (a - b).abs());
+        ensure!(
+            told.len() == known.len() && off.all(|off| off <= ONE_MM),
+            "frame {} has another pose than {name}.jts: write both anew, as `pose --out {name}.jts --report {name}.csv` does",
+            cell(0)
+        );
+        let (frame, verdict, because) = (cell(0), cell(1), quoted(cell(2)));
+        let _ = writeln!(
+            rows,
+            "{frame},{},{verdict},{verdict},{because}",
+            quoted(name)
+        );
+    }
+    Ok(Some(rows))
 }
 
 /// Before the reason why a pose was doubtful that a person accepted, in the page's table of states.
@@ -378,15 +410,30 @@ mod tests {
         assert_eq!(told.len(), 1);
         assert_eq!(told[&0], "femur: jump: 2 mm; tibia: a rim");
 
-        let report = "frame,file,x_mm,verdict,because,decided_by\n\
-            1,a.png,0.5,good,\"it lies, on what was seen\",residual\n\
-            2,b.png,,none,\"no outline\",\n";
-        let rows = rows_of_report("the tibia", report).unwrap();
+        let report = "frame,file,x_mm,y_mm,z_mm,verdict,because,decided_by\n\
+            1,a.png,0.5,-2.001,-900,good,\"it lies, on what was seen\",residual\n\
+            2,b.png,,,,none,\"no outline\",\n";
+        let pose = |x| {
+            Some(Pose {
+                translation: [x, -2.0, -900.0],
+                ..Pose::IDENTITY
+            })
+        };
+        let rows_of = |poses: &[Option<Pose>]| rows_of_report("the tibia", poses, report);
+        let rows = rows_of(&[pose(0.5), None]).unwrap().unwrap();
         let told = doubts(&format!("frame,component,state,verdict,because\n{rows}"));
-        assert_eq!(
-            told.into_iter().collect::<Vec<_>>(),
-            [(1, "the tibia none: no outline".to_owned())]
-        );
-        assert_eq!(rows_of_report("tibia", "frame,verdict\n1,good\n"), None);
+        let told: Vec<_> = told.into_iter().collect();
+        assert_eq!(told, [(1, "the tibia none: no outline".to_owned())]);
+        // Of another run: another pose, one where there is none, fewer frames and more.
+        for poses in [
+            &[pose(0.6), None][..],
+            &[pose(0.5), pose(0.5)],
+            &[pose(0.5)],
+            &[pose(0.5), None, None],
+        ] {
+            assert!(rows_of(poses).is_err());
+        }
+        let no_table = rows_of_report("tibia", &[], "frame,verdict\n1,good\n");
+        assert!(no_table.unwrap().is_none());
     }
 }
