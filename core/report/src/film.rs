@@ -67,6 +67,9 @@ pub fn origins_told(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) -> Op
     ))
 }
 
+/// What is said of poses that come without verdicts.
+pub(crate) const NO_VERDICTS: &str = "Nothing says how far the poses are to be trusted, as the table of `track`, of the page or of `pose --report` does: a frame without a doubt need not be good.";
+
 /// A frame of a film.
 #[derive(Clone, Debug, Default)]
 pub struct JointRow {
@@ -249,9 +252,8 @@ impl JointFilm {
     /// What a reader has to know of the verdicts on the poses: that there are none, and what a person accepted. Sentences.
     #[must_use]
     pub fn verdicts_told(&self) -> Vec<String> {
-        let none = "Nothing says how far the poses are to be trusted, as the table of `track`, of the page or of `pose --report` does: a frame without a doubt need not be good.";
         let mut told: Vec<String> = Vec::new();
-        told.extend((!self.has_verdicts).then(|| none.to_owned()));
+        told.extend((!self.has_verdicts).then(|| NO_VERDICTS.to_owned()));
         let frames = self.rows.iter().filter_map(|row| {
             let accepted = row.accepted.as_deref()?;
             Some(format!("{} ({accepted})", row.number))

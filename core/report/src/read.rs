@@ -6,8 +6,8 @@ use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::{Pose, Side};
 use thiserror::Error;
 
-use crate::cell::plain;
-use crate::film::{JointFilm, JointRow};
+use crate::cell::{in_heading, plain};
+use crate::film::{JointFilm, JointRow, NO_VERDICTS};
 
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -165,7 +165,7 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
         frames_per_s: None,
         cutoff_hz: None,
         remarks: Vec::new(),
-        has_verdicts: true,
+        has_verdicts: !text.contains(&in_heading(NO_VERDICTS)),
         rows: Vec::new(),
     };
     let column = |name: &str| table.column(name).ok_or(ReadError::Kind("joint table"));

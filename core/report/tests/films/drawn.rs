@@ -2,7 +2,7 @@
 
 use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose_report::levels::by_flexion;
-use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, write};
+use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, read, write};
 
 use crate::film;
 
@@ -268,6 +268,9 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
             "{text}"
         );
     }
+
+    let back = |film: &JointFilm| read::film(&write::table(film)).map(|film| film.has_verdicts);
+    assert_eq!([back(&film(0.0)), back(&unjudged)], [Ok(true), Ok(false)]);
 
     let mut accepted = film(0.0);
     for row in &mut accepted.rows[3..5] {
