@@ -20,6 +20,10 @@ fn smoothed(drawn: &SyntheticFrame) -> (Vec<u16>, crate::smoothed::Scale) {
 fn outline(drawn: &SyntheticFrame, at: [f64; 2], threshold: &Threshold) -> Vec<Point> {
     let (cells, scale) = smoothed(drawn);
     let frame = Smoothed::from_cells(&cells, drawn.width, drawn.height, scale).expect("fits");
+    outline_in(&frame, at, threshold)
+}
+
+fn outline_in(frame: &Smoothed<'_>, at: [f64; 2], threshold: &Threshold) -> Vec<Point> {
     let (words, points) = threshold_needed(frame.width(), frame.height());
     let mut words = std::vec![0; words];
     let mut line = std::vec![Vertex::default(); points];
@@ -31,13 +35,8 @@ fn outline(drawn: &SyntheticFrame, at: [f64; 2], threshold: &Threshold) -> Vec<P
         line: &mut line,
         marks: &mut marks,
     };
-    let found = region_at(
-        &frame,
-        Point::new(at[0], at[1]),
-        threshold,
-        memory,
-        &mut out,
-    );
+    let at = Point::new(at[0], at[1]);
+    let found = region_at(frame, at, threshold, memory, &mut out);
     assert_eq!(found.expect("valid").is_some(), !out.is_empty());
     out.as_slice().iter().map(|vertex| vertex.at).collect()
 }
@@ -276,24 +275,12 @@ fn a_level_between_two_pixels_is_passed_where_a_slope_has_it() {
             ..DARK
         };
         let cut = Cut::new(&frame, inside, threshold.level);
-        let (words, points) = threshold_needed(60, 40);
-        let mut words = std::vec![0; words];
-        let mut line = std::vec![Vertex::default(); points];
-        let mut marks = std::vec![false; points];
-        let mut places = line.clone();
-        let mut out = List::new(&mut places);
-        let memory = ThresholdMemory {
-            words: &mut words,
-            line: &mut line,
-            marks: &mut marks,
-        };
         let at = if cut.holds(100) { 3.5 } else { 56.5 };
-        let found = region_at(&frame, Point::new(at, 20.5), &threshold, memory, &mut out);
-        assert!(found.expect("valid").is_some());
+        let outline = outline_in(&frame, [at, 20.5], &threshold);
         // The middle of column 15 has 100, each next one 10 more.
         let passed = 15.5 + (f64::from(tenths) - 100.0) / 10.0;
         // At the frame's border the outline turns half a pixel before it.
-        let inner = out.as_slice().iter().map(|vertex| vertex.at);
+        let inner = outline.iter();
         let near = inner.filter(|at| at.column > 1.0 && at.column < 59.0);
         let near = near.filter(|at| at.row > 1.0 && at.row < 39.0);
         let off: Vec<f64> = near.map(|at| (at.column - passed).abs()).collect();

@@ -60,11 +60,14 @@ struct OnFrame {
     corrected: Pose,
 }
 
-fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
+/// Calls `with` with what is found on a frame, by a film where that is known.
+fn found_on<T>(
+    part: &Part,
+    (mask, frame): (&Mask<'_>, &Frame<'_, u8>),
+    film: Option<FilmModel>,
+    with: impl FnOnce(&Component<'_>, &Camera, &[Candidate], &mut RefineMemory<'_>) -> T,
+) -> T {
     let camera = calibration().camera(SIDE, SIDE).expect("a camera");
-    let pixels = frame_of(mask, SHARP);
-    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-    let image = |film| dark(&frame, film);
     let library = Library::open(&part.library).expect("a library");
     let model = part.model.as_model();
     let planes = symmetry_planes(model.mesh());
@@ -76,26 +79,42 @@ fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
     let mut buffers = FinderBuffers::default();
     let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
     let (silhouette, options) = (Silhouette::from(mask), RefineOptions::default());
+    let goal = Goal::Image(dark(frame, film));
+    let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
+    let candidates = found.expect("candidates").candidates;
+    with(&component, &camera, &candidates, &mut memory.refine)
+}
+
+fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
+    let pixels = frame_of(mask, SHARP);
+    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
     let [curvature, blur_px, attenuation] = GIVEN;
     let given = FilmModel::certain(FilmConstants::plain(curvature, blur_px), attenuation);
-    let goal = Goal::Image(image(Some(given)));
-    let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
-    let first = found.expect("candidates").candidates[0];
-
-    let (best, memory) = (first.pose, &mut memory.refine);
-    let film = film_at(&model, &camera, &best, &image(None), 1, memory).expect("told");
-    // As it was kept: six numbers.
-    let kept = Candidate {
-        refined: Some(Refined::at(EulerPose::from(best).into())),
-        ..first
-    };
-    let seen = (&camera, image(Some(film.model(0))));
-    let corrected = correct_candidates(&model, seen, &planes, &[kept], options, memory);
-    OnFrame {
-        best,
-        film,
-        corrected: corrected.expect("corrected")[0].pose,
-    }
+    found_on(
+        part,
+        (mask, &frame),
+        Some(given),
+        |of, camera, candidates, memory| {
+            let (first, best) = (candidates[0], candidates[0].pose);
+            let film =
+                film_at(of.model, camera, &best, &dark(&frame, None), 1, memory).expect("told");
+            // As it was kept: six numbers.
+            let kept = Candidate {
+                refined: Some(Refined::at(EulerPose::from(best).into())),
+                ..first
+            };
+            let (seen, options) = (
+                (camera, dark(&frame, Some(film.model(0)))),
+                RefineOptions::default(),
+            );
+            let corrected = correct_candidates(of.model, seen, of.planes, &[kept], options, memory);
+            OnFrame {
+                best,
+                film,
+                corrected: corrected.expect("corrected")[0].pose,
+            }
+        },
+    )
 }
 
 fn film_at(
@@ -116,41 +135,41 @@ fn film_at(
 
 /// What is found on a soft frame, whose film is read in squares of two pixels: that, and the pose by it.
 fn look_in_squares(part: &Part, mask: &Mask<'_>) -> (FilmEstimate, Pose) {
-    let camera = calibration().camera(SIDE, SIDE).expect("a camera");
     let pixels = frame_of(mask, SOFT);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-    let library = Library::open(&part.library).expect("a library");
-    let model = part.model.as_model();
-    let planes = symmetry_planes(model.mesh());
-    let component = Component {
-        library: &library,
-        model: &model,
-        planes: &planes,
-    };
-    let mut buffers = FinderBuffers::default();
-    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
-    let (silhouette, options) = (Silhouette::from(mask), RefineOptions::default());
-    let goal = Goal::Image(dark(&frame, None));
-    let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
-    let candidates = found.expect("candidates").candidates;
-
-    let memory = &mut memory.refine;
     let mut choice = SquareChoice::new(None);
-    let mut told = None;
-    while let Some(side) = choice.wanted() {
-        let (wide, squares) = (SIDE / side, frame.reduced(side).expect("fits"));
-        let squares = Frame::new(&squares, wide, wide, wide).expect("fits");
-        let camera = camera.reduced(side).expect("fits");
-        let best = candidates[0].pose;
-        let film = film_at(&model, &camera, &best, &dark(&squares, None), side, memory);
-        choice.take(film.as_ref().map(|film| film.constants.blur_px));
-        let Some(film) = film.filter(|_| choice.square_px() == side) else {
-            continue;
-        };
-        let seen = (&camera, dark(&squares, Some(film.model(0))));
-        let corrected = correct_candidates(&model, seen, &[], &candidates, options, memory);
-        told = Some((film, corrected.expect("corrected")[0].pose));
-    }
+    let told = found_on(
+        part,
+        (mask, &frame),
+        None,
+        |of, camera, candidates, memory| {
+            let mut told = None;
+            while let Some(side) = choice.wanted() {
+                let (wide, squares) = (SIDE / side, frame.reduced(side).expect("fits"));
+                let squares = Frame::new(&squares, wide, wide, wide).expect("fits");
+                let camera = camera.reduced(side).expect("fits");
+                let best = candidates[0].pose;
+                let film = film_at(
+                    of.model,
+                    &camera,
+                    &best,
+                    &dark(&squares, None),
+                    side,
+                    memory,
+                );
+                choice.take(film.as_ref().map(|film| film.constants.blur_px));
+                let Some(film) = film.filter(|_| choice.square_px() == side) else {
+                    continue;
+                };
+                let seen = (&camera, dark(&squares, Some(film.model(0))));
+                let options = RefineOptions::default();
+                let corrected =
+                    correct_candidates(of.model, seen, &[], candidates, options, memory);
+                told = Some((film, corrected.expect("corrected")[0].pose));
+            }
+            told
+        },
+    );
     assert_eq!(choice.square_px(), 2);
     told.expect("finer than its blur")
 }
