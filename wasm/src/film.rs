@@ -111,6 +111,13 @@ impl FilmSquares {
         Self(SquareChoice::new(stated_blur_px))
     }
 
+    /// Of each component so many frames are to be read, the first whose pose is known.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        SquareChoice::FRAMES
+    }
+
     /// The side of the squares to read profiles in next, pixels; nothing once it is known.
     #[wasm_bindgen(getter)]
     #[must_use]

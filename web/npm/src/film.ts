@@ -15,8 +15,6 @@ export interface FilmSource {
 
 /** The core tells so many implants apart. */
 const MOST = 2;
-/** Of each implant so many frames tell the squares that a film is read in. */
-const FIRST = 3;
 
 /**
  * What the frames of a study tell of their film: all of one film, one or two implants. Null where they do not tell. One implant
@@ -39,8 +37,8 @@ export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm 
 
 /** The side of the squares of pixels that the film is read in: 1 unless it is much finer than its blur. */
 function squareOf(sources: readonly FilmSource[], implants: readonly Reader[], stated: StatedFilm): number {
-  const first = implants.flatMap((implant) => sources.filter((source) => source.implant === implant).slice(0, FIRST));
   const squares = new FilmSquares(stated.blur);
+  const first = implants.flatMap((implant) => sources.filter((source) => source.implant === implant).slice(0, squares.frames));
   try {
     for (let side = squares.wanted; side !== undefined; side = squares.wanted) squares.take(factsOf(first, implants, side, stated));
     return squares.side;

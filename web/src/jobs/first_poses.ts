@@ -132,10 +132,14 @@ export class FirstPoses {
   /** Compares a frame with one library after the other until the component is found. */
   async #look(step: PlanStep, search: Search): Promise<Discovery | null> {
     const { component } = search.parts[step.part]!;
-    for (const distance of await this.#libraries.distances(component, search.workers[component], step.depth)) {
+    // Where its joint leaves it no views are asked: what is open will do.
+    const isOfJoint = step.search === 'joint';
+    const opened = isOfJoint && search.opened.get(component);
+    const distances = opened || (await this.#libraries.distances(component, search.workers[component], step.depth));
+    for (const distance of isOfJoint ? distances.slice(0, 1) : distances) {
       const library = await this.#numberOf(distance, component, search);
       const found = library === null ? null : await this.#compare(step, library, search);
-      if (found || step.search === 'joint') return found;
+      if (found) return found;
     }
     return null;
   }
