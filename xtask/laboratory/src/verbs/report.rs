@@ -42,7 +42,7 @@ pub struct Args {
     /// Instead of a study: knees that are published together, each table joint.csv with the name of its knee; a knee may have several
     #[arg(long, value_name = "KNEE=FILE", num_args = 1.., conflicts_with_all = ["study", "poses", "fps", "cutoff"])]
     pub group: Vec<String>,
-    /// Folder of the poses; without it the study's references
+    /// Folder of the poses, COMPONENT.jts each, with track.csv, or tables of `pose --report` as COMPONENT.csv, for their verdicts; without it the study's references
     #[arg(long, value_name = "DIR")]
     pub poses: Option<PathBuf>,
     /// Folder for what is written; made if absent
