@@ -12,6 +12,7 @@ mod pose_rows;
 mod poses;
 mod role;
 mod stated_axes;
+mod states;
 mod study;
 mod text;
 
@@ -32,6 +33,7 @@ pub use name::check_file_name;
 pub use pose_rows::{PoseRows, read_poses_of};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
+pub use states::{State, States};
 pub use study::{Component, StatedFilm, Study};
 pub use text::{
     csv_fields, name_of, read, read_text, sha256, write_bytes, write_figure, write_json, write_text,

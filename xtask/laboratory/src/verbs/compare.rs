@@ -3,12 +3,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use fluoropose::math::{Vector3, dot, norm, scale, subtract};
 use fluoropose::pose::{Pose, geodesic_deg};
 use serde::Serialize;
 
-use crate::files::{Component, PoseRows, Study, csv_fields, read_poses_of, read_text, write_json};
+use crate::files::{Component, PoseRows, States, Study, read_poses, read_poses_of, write_json};
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::options::study_files;
 
@@ -25,7 +25,7 @@ ray to it, the median of all that were found; wrong and good counts frames more 
 #[derive(clap::Args)]
 #[command(
     after_help = format!("A row for each component that has a reference: {COLUMNS} Frames that are wrong and good are listed below. The files of the poses are \
-those that `track` writes: track.csv tells poses and verdicts. Without it all poses count as good, and that is said.\n\n\
+those that `track` writes, COMPONENT.jts each; track.csv beside them, or tables of `pose --report` as COMPONENT.csv, tell verdicts. Without these all poses count as good, and that is said.\n\n\
 Example:\n  cargo xtask compare --study study.toml --poses tracked\n  \
 cargo xtask compare --study study.toml --poses tracked --with by-hand")
 )]
@@ -210,82 +210,66 @@ struct Found {
 /// For files that are missing, unreadable or do not belong together.
 pub fn compare(study: &Path, poses: &Path, with: Option<&Path>) -> Result<Vec<Row>> {
     let study = Study::read_quietly(study)?;
-    let table = poses.join("track.csv");
-    let states = match table.is_file() {
-        true => Some(read_text(&table)?),
-        false => {
-            eprintln!(
-                "{} has no track.csv: its poses all count as good",
-                poses.display()
-            );
-            None
-        }
-    };
     let frames = study.frames.as_deref();
-    let order = PoseRows::of(poses, frames)?;
-    let goods = |component: &str| -> Result<Option<Vec<bool>>> {
-        let Some(states) = &states else {
-            return Ok(None);
-        };
-        let by_row = goods(states, component)?;
-        // As poses are read: by the frames that their rows are of.
-        let by_frame = order
-            .as_ref()
-            .map(|order| order.rows(&by_row))
-            .transpose()?;
-        Ok(Some(by_frame.unwrap_or(by_row)))
-    };
-    let mut rows = Vec::new();
+    let file = |folder: &Path, name: &str| folder.join(format!("{name}.jts"));
+    let mut bodies = Vec::new();
     for component in &study.components {
-        let file = |folder: &Path| folder.join(format!("{}.jts", component.name));
-        let reference = with.map(file).or_else(|| component.reference.clone());
-        if let Some(reference) = reference {
-            let files = [file(poses), reference];
-            let good = goods(&component.name)?;
-            rows.push(of_component(component, files, good, frames)?);
+        let name = component.name.as_str();
+        let other = with.map(|with| file(with, name));
+        if let Some(reference) = other.or_else(|| component.reference.clone()) {
+            let rows = read_poses(&file(poses, name))?;
+            bodies.push((component, read_poses_of(&reference, frames)?, rows));
         }
     }
-    Ok(rows)
+    let named: Vec<_> = bodies
+        .iter()
+        .map(|(component, _, rows)| (component.name.as_str(), rows.as_slice()))
+        .collect();
+    let states = States::beside(poses, &named)?;
+    if states.is_none() && !bodies.is_empty() {
+        eprintln!(
+            "nothing in {} tells verdicts: its poses all count as good",
+            poses.display()
+        );
+    }
+    let order = PoseRows::of(poses, frames)?;
+    if let Some(order) = &order {
+        eprintln!("{}", order.words(poses));
+    }
+    let rows = bodies.iter().map(|(component, reference, rows)| {
+        let found = found(&component.name, rows, states.as_ref());
+        // As references are read: by the frames that their rows are of.
+        let in_order = order.as_ref().map(|order| order.rows(&found)).transpose()?;
+        of_component(component, reference, &in_order.unwrap_or(found))
+    });
+    rows.collect()
 }
 
-fn of_component(
-    component: &Component,
-    [poses, reference]: [PathBuf; 2],
-    good: Option<Vec<bool>>,
-    frames: Option<&Path>,
-) -> Result<Row> {
+/// The poses of a component as their verdicts have them; without any all are good.
+fn found(name: &str, poses: &[Option<Pose>], states: Option<&States>) -> Vec<Found> {
+    let mut found: Vec<Found> = poses
+        .iter()
+        .map(|&pose| Found {
+            pose,
+            is_good: states.is_none(),
+        })
+        .collect();
+    let own = states.iter().flat_map(|states| &states.all);
+    for state in own.filter(|state| state.component == name) {
+        found[state.row].is_good = state.is_good();
+    }
+    found
+}
+
+fn of_component(component: &Component, reference: &[Option<Pose>], found: &[Found]) -> Result<Row> {
     let name = &component.name;
-    let reference = read_poses_of(&reference, frames)?;
-    let found = read_poses_of(&poses, frames)?;
-    let good = good.unwrap_or_else(|| vec![true; found.len()]);
     let (known, there) = (reference.len(), found.len());
     ensure!(
-        known == there && good.len() == there,
-        "{name}: {there} poses, {} verdicts and {known} references: all must be of the same frames",
-        good.len()
+        known == there,
+        "{name}: {there} poses and {known} references: both must be of the same frames"
     );
-    let found: Vec<Found> = found
-        .into_iter()
-        .zip(good)
-        .map(|(pose, is_good)| Found { pose, is_good })
-        .collect();
     let middle = component.read_model()?.as_model().bounds().centre;
-    Ok(Row::of(name, &middle, &reference, &found))
-}
-
-/// Whether each frame of a component is good, by the table of states.
-fn goods(table: &str, component: &str) -> Result<Vec<bool>> {
-    let mut lines = table.lines();
-    let heading = csv_fields(lines.next().unwrap_or_default());
-    let column = |name: &str| heading.iter().position(|own| own == name);
-    let (own, verdict) = column("component")
-        .zip(column("verdict"))
-        .context("track.csv has no verdicts")?;
-    let rows = lines.map(csv_fields);
-    let rows = rows.filter(|row| row.get(own).is_some_and(|name| name == component));
-    Ok(rows
-        .map(|row| row.get(verdict).is_some_and(|word| word == "good"))
-        .collect())
+    Ok(Row::of(name, &middle, reference, found))
 }
 
 #[cfg(test)]
@@ -323,12 +307,5 @@ mod tests {
         assert!((row.largest_deg - 9.0).abs() < 1e-9 && (row.largest_good_deg - 1.0).abs() < 1e-9);
         assert!((row.median_deg - 1.0).abs() < 1e-9);
         assert!(row.told().unwrap().ends_with("frames 2"));
-    }
-
-    #[test]
-    fn verdicts_are_those_of_the_component() {
-        let table = "frame,component,state,verdict\n1,\"femur\",followed,good\n1,\"tibia\",doubtful,doubtful\n2,\"femur\",untrackable,none\n";
-        assert_eq!(goods(table, "femur").unwrap(), [true, false]);
-        assert!(goods("frame\n", "femur").is_err());
     }
 }

@@ -1,19 +1,18 @@
 //! What a report is made from: models, poses, their covariances, what is doubtful, and the digests of all of these.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose_report::cell::{plain, quoted};
+use fluoropose_report::cell::plain;
 use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
-    Component, PoseRows, Role, Study, csv_fields, name_of, read, read_poses, read_poses_of,
-    read_text, sha256,
+    Component, PoseRows, Role, State, States, Study, csv_fields, name_of, read, read_poses,
+    read_poses_of, read_text, sha256,
 };
 
 /// A component with its poses.
@@ -88,7 +87,7 @@ impl Sources {
             None => None,
         };
         let has_verdicts = states.is_some();
-        let states = states.unwrap_or_default();
+        let states = states.unwrap_or_default().all;
         let (mut doubts, mut checked) = (doubts(&states), checked(&states));
         let mut accepted = accepted(&states);
         if let Some(folder) = poses
@@ -123,100 +122,52 @@ impl Sources {
     }
 }
 
-/// The table of states in a folder of poses: what `track` and the page write, or what `pose --report` writes of both components, as COMPONENT.csv.
+/// The states of both components in a folder of poses, where it has them.
 ///
 /// # Errors
 /// For tables of other poses.
-fn states(folder: &Path, bodies: [&Body; 2], inputs: &mut Vec<Input>) -> Result<Option<String>> {
-    let table = folder.join("track.csv");
-    if table.is_file() {
-        inputs.push(digest("states of the frames", &table)?);
-        return Ok(Some(read_text(&table)?));
+fn states(folder: &Path, bodies: [&Body; 2], inputs: &mut Vec<Input>) -> Result<Option<States>> {
+    let poses = bodies.map(|body| (body.name.as_str(), body.poses.as_slice()));
+    let states = States::beside(folder, &poses)?;
+    for table in states.iter().flat_map(|states| &states.tables) {
+        inputs.push(digest("verdicts of poses", table)?);
     }
-    let mut all = String::from("frame,component,state,verdict,because\n");
-    for Body { name, poses, .. } in bodies {
-        let table = folder.join(format!("{name}.csv"));
-        let rows = match table.is_file() {
-            true => rows_of_report(name, poses, &read_text(&table)?)
-                .with_context(|| format!("in {}", table.display()))?,
-            false => None,
-        };
-        let Some(rows) = rows else { return Ok(None) };
-        inputs.push(digest(&format!("verdicts of the {name}"), &table)?);
-        all.push_str(&rows);
-    }
-    Ok(Some(all))
+    Ok(states)
 }
 
-/// Poses are one where their places are so near, mm: tables are rounded.
-const ONE_MM: f64 = 0.01;
-
-/// The rows of a table of `pose --report` as those of `track.csv`; `None` where it is no such table.
-///
-/// # Errors
-/// Where it is of other poses, whose verdicts say nothing of these.
-fn rows_of_report(name: &str, poses: &[Option<Pose>], table: &str) -> Result<Option<String>> {
-    let mut lines = table.lines();
-    let heading = csv_fields(lines.next().unwrap_or_default());
-    let place = |name: &str| heading.iter().position(|one| one == name);
-    let names = ["frame", "verdict", "because", "x_mm", "y_mm", "z_mm"];
-    let places: Option<Vec<usize>> = names.into_iter().map(place).collect();
-    let Some(places) = places else {
-        return Ok(None);
-    };
-    let lines: Vec<&str> = lines.collect();
-    ensure!(
-        lines.len() == poses.len(),
-        "{} frames, but {name}.jts has {}",
-        lines.len(),
-        poses.len()
-    );
-    let mut rows = String::new();
-    for (line, pose) in lines.into_iter().zip(poses) {
-        let fields = csv_fields(line);
-        let cell = |k: usize| fields.get(places[k]).map_or("", String::as_str);
-        let told: Vec<f64> = (3..6).flat_map(|k| cell(k).parse()).collect();
-        let known = pose.map_or(Vec::new(), |pose| pose.translation.to_vec());
-        let mut off = told.iter().zip(&known).map(|(a, b)| (a - b).abs());
-        ensure!(
-            told.len() == known.len() && off.all(|off| off <= ONE_MM),
-            "frame {} has another pose than {name}.jts: write both anew, as `pose --out {name}.jts --report {name}.csv` does",
-            cell(0)
-        );
-        let (frame, verdict, because) = (cell(0), cell(1), quoted(cell(2)));
-        let _ = writeln!(
-            rows,
-            "{frame},{},{verdict},{verdict},{because}",
-            quoted(name)
-        );
-    }
-    Ok(Some(rows))
-}
-
-/// Before the reason why a pose was doubtful that a person accepted, in the page's table of states.
-const ACCEPTED: &str = "a person accepted it; it was doubtful: ";
-
-/// The reasons why poses were doubtful that a person accepted, by frame, from 0.
-fn accepted(text: &str) -> BTreeMap<usize, String> {
+/// What is told of frames, by their rows: of two components both.
+fn told(rows: impl Iterator<Item = (usize, String)>) -> BTreeMap<usize, String> {
     let mut all: BTreeMap<usize, String> = BTreeMap::new();
-    for fields in text.lines().skip(1).map(csv_fields) {
-        let [frame, component, _, _, because, ..] = fields.as_slice() else {
-            continue;
-        };
-        let told = (
-            frame.parse::<usize>(),
-            plain(because).strip_prefix(ACCEPTED),
-        );
-        if let (Ok(frame), Some(because)) = told {
-            let why = format!("{}: {because}", plain(component));
-            let frame = all.entry(frame.saturating_sub(1)).or_default();
-            match frame.is_empty() {
-                true => *frame = why,
-                false => *frame = format!("{frame}; {why}"),
-            }
+    for (row, words) in rows {
+        let told = all.entry(row).or_default();
+        if !told.is_empty() {
+            told.push_str("; ");
         }
+        told.push_str(&words);
     }
     all
+}
+
+/// Why frames are not good.
+fn doubts(states: &[State]) -> BTreeMap<usize, String> {
+    let words = |one: &State| format!("{} {}: {}", one.component, one.state, one.because);
+    let bad = states.iter().filter(|one| !one.is_good());
+    told(bad.map(|one| (one.row, words(one))))
+}
+
+/// Why poses were doubtful that a person accepted.
+fn accepted(states: &[State]) -> BTreeMap<usize, String> {
+    let words = |one: &State| Some((one.row, format!("{}: {}", one.component, one.accepted()?)));
+    told(states.iter().filter_map(words))
+}
+
+/// The rows in which a person has checked the poses of both components.
+fn checked(states: &[State]) -> BTreeSet<usize> {
+    let mut once = BTreeSet::new();
+    let all = states.iter().filter(|one| one.is_checked);
+    all.map(|one| one.row)
+        .filter(|&row| !once.insert(row))
+        .collect()
 }
 
 fn by_frame<T>(of_rows: BTreeMap<usize, T>, rows: &PoseRows) -> BTreeMap<usize, T> {
@@ -355,85 +306,33 @@ pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
     Ok(all)
 }
 
-/// The frames, from 0, of which both components' rows say so in a column `checked`: the page writes it.
-fn checked(text: &str) -> BTreeSet<usize> {
-    let mut lines = text.lines();
-    let heading = csv_fields(lines.next().unwrap_or_default());
-    let Some(column) = heading.iter().position(|name| name == "checked") else {
-        return BTreeSet::new();
-    };
-    let (mut once, mut both) = (BTreeSet::new(), BTreeSet::new());
-    for fields in lines.map(csv_fields) {
-        let Some(Ok(frame)) = fields.first().map(|frame| frame.parse::<usize>()) else {
-            continue;
-        };
-        let is_checked = fields.get(column).is_some_and(|word| word == "1");
-        if is_checked && !once.insert(frame.saturating_sub(1)) {
-            both.insert(frame.saturating_sub(1));
-        }
-    }
-    both
-}
-
-/// The reasons of `track.csv` (frame, component, state, verdict, reason) for what is not good, by frame, from 0.
-pub fn doubts(text: &str) -> BTreeMap<usize, String> {
-    let mut all: BTreeMap<usize, String> = BTreeMap::new();
-    for line in text.lines().skip(1) {
-        let fields = csv_fields(line);
-        let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
-            continue;
-        };
-        let (Ok(frame), false) = (frame.parse::<usize>(), verdict == "good") else {
-            continue;
-        };
-        let why = format!("{} {state}: {}", plain(component), plain(because));
-        let all = all.entry(frame.saturating_sub(1)).or_default();
-        if !all.is_empty() {
-            all.push_str("; ");
-        }
-        all.push_str(&why);
-    }
-    all
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn what_a_person_accepted_is_told_and_a_table_of_pose_is_one_of_states() {
-        let states = "frame,component,state,verdict,because\n\
-            1,\"femur\",fixed,good,\"a person accepted it; it was doubtful: jump: 2 mm\"\n\
-            1,\"tibia\",fixed,good,\"a person accepted it; it was doubtful: a rim\"\n\
-            2,\"tibia\",followed,good,\"the edges lie on the outline\"\n";
-        let told = accepted(states);
-        assert_eq!(told.len(), 1);
-        assert_eq!(told[&0], "femur: jump: 2 mm; tibia: a rim");
-
-        let report = "frame,file,x_mm,y_mm,z_mm,verdict,because,decided_by\n\
-            1,a.png,0.5,-2.001,-900,good,\"it lies, on what was seen\",residual\n\
-            2,b.png,,,,none,\"no outline\",\n";
-        let pose = |x| {
-            Some(Pose {
-                translation: [x, -2.0, -900.0],
-                ..Pose::IDENTITY
-            })
+    fn what_is_told_of_both_components_stands_in_one_line() {
+        let state = |row, component: &str, verdict: &str, because: &str| State {
+            row,
+            component: component.to_owned(),
+            state: "followed".to_owned(),
+            verdict: verdict.to_owned(),
+            because: because.to_owned(),
+            is_checked: row == 1 || component == "femur",
         };
-        let rows_of = |poses: &[Option<Pose>]| rows_of_report("the tibia", poses, report);
-        let rows = rows_of(&[pose(0.5), None]).unwrap().unwrap();
-        let told = doubts(&format!("frame,component,state,verdict,because\n{rows}"));
-        let told: Vec<_> = told.into_iter().collect();
-        assert_eq!(told, [(1, "the tibia none: no outline".to_owned())]);
-        // Of another run: another pose, one where there is none, fewer frames and more.
-        for poses in [
-            &[pose(0.6), None][..],
-            &[pose(0.5), pose(0.5)],
-            &[pose(0.5)],
-            &[pose(0.5), None, None],
-        ] {
-            assert!(rows_of(poses).is_err());
-        }
-        let no_table = rows_of_report("tibia", &[], "frame,verdict\n1,good\n");
-        assert!(no_table.unwrap().is_none());
+        let accepted_it = "a person accepted it; it was doubtful: a jump";
+        let states = [
+            state(0, "femur", "good", accepted_it),
+            state(0, "tibia", "good", accepted_it),
+            state(1, "femur", "doubtful", "a rim"),
+            state(1, "tibia", "none", "no edge"),
+        ];
+        let one = |row, words: &str| BTreeMap::from([(row, words.to_owned())]);
+        assert_eq!(accepted(&states), one(0, "femur: a jump; tibia: a jump"));
+        assert_eq!(
+            doubts(&states),
+            one(1, "femur followed: a rim; tibia followed: no edge")
+        );
+        assert_eq!(checked(&states), BTreeSet::from([1]));
     }
 }

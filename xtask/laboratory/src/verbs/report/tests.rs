@@ -52,6 +52,24 @@ fn write_poses(folder: &Path, name: &str, poses: &[Option<EulerPose>]) {
     std::fs::write(folder.join(format!("{name}.jts")), text).unwrap();
 }
 
+/// Frame 3 is doubtful, and in frame 5 both poses are checked.
+fn track() -> String {
+    let mut table = String::from("frame,component,state,verdict,because,checked\n");
+    for frame in 1..=FRAMES {
+        for name in ["femur", "tibia"] {
+            let (word, because) = match (frame, name) {
+                (3, "tibia") => ("doubtful,doubtful", "a rim, perhaps"),
+                (7, "femur") => ("untrackable,none", "no edge"),
+                _ => ("followed,good", "fits"),
+            };
+            let is_checked = frame == 5 || (frame, name) == (3, "femur");
+            let checked = u8::from(is_checked);
+            table += &format!("{frame},\"{name}\",{word},\"{because}\",{checked}\r\n");
+        }
+    }
+    table
+}
+
 fn write_study(folder: &Path) {
     let parameters = Parameters {
         side: implant::Side::Left,
@@ -75,9 +93,7 @@ fn write_study(folder: &Path) {
         }
         std::fs::write(folder.join(format!("{name}.covariances.csv")), table).unwrap();
     }
-    let track = "frame,component,state,verdict,because,checked\n3,\"femur\",followed,good,\"fits\",1\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\",0\n\
-        5,femur,fixed,good,fits,1\r\n5,tibia,fixed,good,fits,1\r\n";
-    std::fs::write(folder.join("track.csv"), track).unwrap();
+    std::fs::write(folder.join("track.csv"), track()).unwrap();
     let film =
         "component,and so on\n\"femur\",0.0062,0.001,1.4,0.07,1.83,0.18,0.8,2.5\n\"tibia\",odd\n";
     std::fs::write(folder.join("film.csv"), film).unwrap();
