@@ -105,7 +105,7 @@ pub struct Reported {
 pub fn report(file: &Path, args: &Args) -> Result<Reported> {
     let study = Study::read(file)?;
     let sources = Sources::read(file, &study, args.poses.as_deref())?;
-    let filtering = Filtering::new(frames_per_s(args.fps, &study)?, args.cutoff)?;
+    let filtering = Filtering::new(frames_per_s(args.fps, &study), args.cutoff)?;
     let knee = Knee::new(&study.name, of_body(study.known_side()?), &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
@@ -133,14 +133,19 @@ pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
     film().map_or_else(|_| Vec::new(), |film| film.impossibilities())
 }
 
-/// As asked for, or as the study states it, or as its frames do.
-fn frames_per_s(asked: Option<f64>, study: &Study) -> Result<Option<f64>> {
-    match (asked.or(study.frames_per_s), &study.frames) {
-        (Some(rate), _) => Ok(Some(rate)),
-        // Frames that are not at hand tell no times.
-        (None, Some(folder)) => Ok(stated_frames_per_s(folder).unwrap_or_default()),
-        (None, None) => Ok(None),
+/// As asked for, or as the study states it, or as its frames do. What is asked for against these is said.
+fn frames_per_s(asked: Option<f64>, study: &Study) -> Option<f64> {
+    // Frames that are not at hand tell no times.
+    let of_frames = |folder: &PathBuf| stated_frames_per_s(folder).unwrap_or_default();
+    let stated = study
+        .frames_per_s
+        .or_else(|| study.frames.as_ref().and_then(of_frames));
+    if let (Some(asked), Some(stated)) = (asked, stated)
+        && asked != stated
+    {
+        eprintln!("{asked} frames a second, as --fps says; the study or its frames state {stated}");
     }
+    asked.or(stated)
 }
 
 fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> Result<()> {

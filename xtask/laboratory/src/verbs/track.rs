@@ -65,7 +65,7 @@ pub struct Args {
     /// Folder for what is found
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// A place inside a component in a frame, from 1; pixels
+    /// A place inside a component in a frame, from 1: pixels from the frame's upper left corner, to the right and down
     #[arg(long, value_name = "COMPONENT:FRAME:COLUMN,ROW")]
     click: Vec<Click>,
     /// Poses that a person fixed: a row a frame. Every row with a pose counts as one, so NaN stands where nobody checked it
