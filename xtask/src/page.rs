@@ -39,7 +39,7 @@ const MODULES: [&Module; 3] = [&PAGE, &CORE, &DECODE];
 pub(crate) enum Build {
     /// As they are shipped: as small as can be.
     Shipped,
-    /// In a third of the time, for a page on this machine: not united into one piece of code (link-time optimisation).
+    /// In a third of the time, for a page on this machine: each crate compiled in several pieces side by side.
     /// Results are the same. It has the profile of this program, with which it shares macros and build scripts.
     Quick,
 }
