@@ -111,10 +111,11 @@ export function onOutline(label: string, place: Place, change: (outline: Outline
 
 /**
  * While a closed outline changes, the last result stays on view until the new one is there. A pose that was set by hand
- * does not come from an outline and stays in any case.
+ * does not come from an outline and stays in any case; one that was followed stays until an outline is closed and has its own.
  */
 function keepWhileFollowing(cell: Cell, outline: Outline | null): Cell {
-  if (isByHand(cell.result)) return { ...cell, outline };
+  const isSet = isByHand(cell.result) || (cell.result?.kind === 'posed' && isFromFilm(cell.result));
+  if (isSet) return { ...cell, outline };
   return outline?.closed ? { ...cell, outline } : { outline, result: null, resultOf: null };
 }
 

@@ -4,7 +4,7 @@ import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
 import { isDiscarded, isSilhouette } from './laid_by';
-import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Posed, type Result, type Verdict } from './types';
+import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Outline, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 
@@ -35,10 +35,15 @@ export interface Followed {
   readonly from: string;
 }
 
-/** Nobody worked on it, so that following may say what is there. A click that found nothing fixes nothing. */
+/** Nobody set what is there, so that following may say it. A click that found nothing fixes nothing, nor does a draft over what was followed. */
 export function isFree(cell: Cell): boolean {
   const { outline, result } = cell;
-  return isDiscarded(cell) || (outline === null && (result === null || isFollowed(result)));
+  return isDiscarded(cell) || (!outline?.closed && (result === null ? outline === null : isFollowed(result)));
+}
+
+/** The outline of a free cell that stays: a draft, which has led to nothing yet. */
+function draftOf(cell: Cell): Outline | null {
+  return isDiscarded(cell) ? null : cell.outline;
 }
 
 /** The program found it, by itself or from a click, and nobody chose another. */
@@ -57,11 +62,11 @@ export function hasLed(result: Result | null): boolean {
   return after !== undefined && before!.endsWith(after);
 }
 
-/** Did an outline take the place of a pose that following found? Nobody who clicked beside something else would see it. */
+/** Did a closed outline take the place of a pose that following found? Nobody who clicked beside something else would see it. */
 export function gaveWay(before: Doc, after: Doc, { frameId, component }: Place): boolean {
   const { outline, result } = cellOf(before, frameId, component);
-  const wasFollowed = outline === null && result?.kind === 'posed' && isFromFilm(result);
-  return wasFollowed && cellOf(after, frameId, component).outline !== null;
+  const wasFollowed = !outline?.closed && result?.kind === 'posed' && isFromFilm(result);
+  return wasFollowed && cellOf(after, frameId, component).outline?.closed === true;
 }
 
 /** Was it found by following that has not come to its end? */
@@ -80,13 +85,14 @@ export function withSoFar(doc: Doc, place: Place, pose: PoseNumbers, from: strin
   if (!isFree(cell)) return doc;
   const because = texts.follow.soFar;
   const result = posedBy(`${SO_FAR} ${from}`, bare(pose), { word: 'doubtful', because }, null);
-  return withCell(doc, place, { outline: null, result, resultOf: null });
+  return withCell(doc, place, { outline: draftOf(cell), result, resultOf: null });
 }
 
 /** The cells as they were before they were followed so far. */
 export function withoutSoFar(doc: Doc, before: readonly (readonly [Place, Cell])[]): Doc {
   return before.reduce((changed, [place, was]) => {
-    return isSoFar(cellOf(changed, place.frameId, place.component).result) ? withCell(changed, place, was) : changed;
+    const now = cellOf(changed, place.frameId, place.component);
+    return isSoFar(now.result) ? withCell(changed, place, { ...was, outline: now.outline ?? was.outline }) : changed;
   }, doc);
 }
 
@@ -98,7 +104,7 @@ export function takeFollowed(found: readonly Followed[]): Command {
 function withFollowed(doc: Doc, one: Followed): Doc {
   const cell = cellOf(doc, one.place.frameId, one.place.component);
   if (one.isLeader && !isFollowed(cell.result)) return isFound(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
-  return isFree(cell) ? withCell(doc, one.place, { outline: null, result: resultOf(one), resultOf: null }) : doc;
+  return isFree(cell) ? withCell(doc, one.place, { outline: draftOf(cell), result: resultOf(one), resultOf: null }) : doc;
 }
 
 function resultOf({ pose, deviations, residual, doubtful, badness, rival, led, because, from }: Followed): Result {
