@@ -342,4 +342,20 @@ mod tests {
         assert_eq!(cells, 11);
         assert!(tree.sharpest([12.0, 30.0]).is_empty());
     }
+
+    #[test]
+    fn the_part_of_a_border_that_the_picture_cuts_off_is_told() {
+        // Three cells of a corner: of eight sides three are the picture's, and one is against what is blocked.
+        let mut levels = [9; WIDTH * HEIGHT];
+        for (cell, level) in [(0, 1), (1, 1), (WIDTH, 1), (2, BLOCKED)] {
+            levels[cell] = level;
+        }
+        let mut numbers = std::vec![0; numbers_needed(levels.len())];
+        let mut tree = DarkRegions::new(&levels, &PICTURE, &mut numbers).expect("enough");
+        let corner = tree.sharpest([3.0, 3.0])[0];
+        let (_, [sides, contrast, open]) = around(&levels, 0);
+        assert_eq!([sides, contrast, open], [3, 24, 5]);
+        assert_eq!(tree.cut(corner), 5.0 / 8.0);
+        assert_eq!(tree.sharpness(corner), 3.0);
+    }
 }

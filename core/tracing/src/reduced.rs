@@ -274,4 +274,37 @@ mod tests {
         let lack = reduction.frame(nothing).err();
         assert_eq!(lack.map(|lack| lack.needed), Some(side * side));
     }
+
+    #[test]
+    fn a_frame_has_all_of_the_range_and_needs_no_more_memory_than_is_said() {
+        let pixels: std::vec::Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| 100 + (k % SIDE / 8) as u16)
+            .collect();
+        let image = ImageTarget {
+            frame: &Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits"),
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let reduction = Reduction::of(4.0 * SIZE, &camera());
+        let (side, words) = (SIDE / 4, words_needed(SIDE / 4, SIDE / 4));
+        let mut room = (std::vec![7; side * side], std::vec![7; words]);
+        let mut memory = ReducedMemory {
+            pixels: &mut room.0,
+            unknown: &mut room.1,
+        };
+        reduction.write(&image, &mut memory).expect("enough memory");
+        let ends = (room.0.iter().min(), room.0.iter().max());
+        assert_eq!(ends, (Some(&0), Some(&u16::MAX)));
+        assert!(room.1.iter().all(|&word| word == 0));
+        let written = |pixels, words| {
+            let written = ReducedPixels {
+                pixels: &room.0[..pixels],
+                unknown: &room.1[..words],
+            };
+            reduction.frame(written).is_ok()
+        };
+        assert!(written(side * side, words));
+        assert!(!written(side * side - 1, words) && !written(side * side, words - 1));
+    }
 }

@@ -380,4 +380,26 @@ mod tests {
             assert!(found.iter().any(is_near), "{middle:?}: {found:?}");
         }
     }
+
+    #[test]
+    fn of_places_that_are_one_the_darkest_stays() {
+        let mut best = Shortlist::new();
+        for (darker, column, row) in [
+            (5.0, 10.0, 10.0),
+            (4.0, 12.0, 11.0),
+            (6.0, 10.0, 12.5),
+            (3.0, 13.0, 10.0),
+            (2.0, 10.0, 15.5),
+        ] {
+            insert(&mut best, (darker, Point::new(column, row)), 3.0);
+        }
+        let kept: std::vec::Vec<_> = best
+            .iter()
+            .map(|&(darker, at)| (darker, at.column, at.row))
+            .collect();
+        assert_eq!(
+            kept,
+            [(6.0, 10.0, 12.5), (3.0, 13.0, 10.0), (2.0, 10.0, 15.5)]
+        );
+    }
 }

@@ -194,3 +194,62 @@ fn what_the_budget_does_not_reach_comes_later() {
     assert!(calls > 2);
     assert!(!session.follow(130.0, 75.0, 5.0, 0).is_empty());
 }
+
+#[test]
+fn the_edges_near_a_cursor_are_those_within_its_radius() {
+    let edges = std::vec![Edge::default(); 40 * 30];
+    let costs = Costs::new(&edges, 40, 30).expect("fits");
+    for (column, row, radius) in [
+        (20.2, 14.9, 6.3),
+        (1.0, 2.5, 4.0),
+        (39.5, 29.5, 3.0),
+        (-2.0, 10.0, 3.0),
+        (20.0, 15.0, 0.0),
+        (20.5, 15.5, 0.0),
+    ] {
+        let at = Point::new(column, row);
+        let places: Vec<Point> = near(&costs, &Cursor { at, radius })
+            .map(|(_, middle)| middle)
+            .collect();
+        let all = (0..40 * 30).map(|k| Point::new((k % 40) as f64 + 0.5, (k / 40) as f64 + 0.5));
+        let within: Vec<Point> = all
+            .filter(|&middle| distance(middle, at) <= radius)
+            .collect();
+        assert_eq!(places, within, "{at:?} {radius}");
+    }
+}
+
+#[test]
+fn what_is_held_is_in_line_and_has_the_same_side_bright() {
+    let edges = std::vec![
+        Edge {
+            outwards: 0,
+            ..Edge::default()
+        };
+        40 * 30
+    ];
+    let costs = Costs::new(&edges, 40, 30).expect("fits");
+    let follower = Follower {
+        held: Some(Held {
+            target: 15 * 40 + 20,
+            anchor: 0,
+        }),
+    };
+    let is_held = |outwards: u8, column: f64, row: f64| {
+        let edge = Edge {
+            outwards,
+            ..Edge::default()
+        };
+        follower.is_held(&costs, edge, Point::new(column, row))
+    };
+    // The bright side is to the right, so that the edge runs up and down.
+    for (row, column) in [(15.5, 21.5), (10.5, 23.5), (20.5, 17.5), (0.5, 26.5)] {
+        assert!(is_held(0, column, row), "{column} {row}");
+    }
+    for (row, column) in [(15.5, 21.6), (10.5, 23.6), (20.5, 17.4), (15.5, 26.5)] {
+        assert!(!is_held(0, column, row), "{column} {row}");
+    }
+    let turned = [40, 216, 41, 215, 128].map(|outwards| is_held(outwards, 20.5, 15.5));
+    assert_eq!(turned, [true, true, false, false, false]);
+    assert!(!Follower::default().is_held(&costs, edges[0], Point::new(20.5, 15.5)));
+}

@@ -74,3 +74,23 @@ impl Expected {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_component_anything_to_half_a_frame_is_expected() {
+        let camera = Camera::new(640, 400, [900.0; 2], [320.0, 200.0]).expect("valid");
+        let Expected {
+            areas,
+            implant,
+            size,
+            extent,
+            ..
+        } = Expected::anything(&camera);
+        assert_eq!((areas, implant), ([62.5, 128_000.0], 128_000.0));
+        // Of a square of as many pixels.
+        assert!((extent * extent - 256_000.0).abs() < 1e-6 && (10.0 * size - extent).abs() < 1e-9);
+    }
+}

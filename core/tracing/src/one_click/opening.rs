@@ -433,4 +433,22 @@ mod tests {
         let doubt = Mask::new(&doubt, WIDTH, HEIGHT).expect("valid");
         assert!(doubt.get(6, 10));
     }
+
+    #[test]
+    fn the_sharpness_of_a_region_is_the_mean_step_across_its_border() {
+        let window = Window {
+            left: 0,
+            top: 0,
+            width: 4,
+            height: 1,
+        };
+        // What is not kept may be marked otherwise; the frame's end is no border.
+        let marks = [KEPT, KEPT | !KEPT, !KEPT, 0];
+        assert_eq!(sharpness(&window, &[10, 12, 40, 90], &marks), 28.0);
+        assert_eq!(
+            sharpness(&window, &[10, 12, 40, 90], &[0, KEPT, 0, 0]),
+            (28.0 - 2.0) / 2.0
+        );
+        assert_eq!(sharpness(&window, &[10, 12, 40, 90], &[0; 4]), 0.0);
+    }
 }

@@ -160,3 +160,40 @@ impl OneClick {
         Ok(Mask::new(words.unwrap_or_default(), width, height)?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::camera;
+    use super::*;
+    use fluoropose::image::contour::Point;
+
+    #[test]
+    fn a_region_of_the_same_size_at_the_same_place_was_matched() {
+        let prompt = super::super::prompt::Prompt::Click(Point::new(9.0, 9.0));
+        let mut work = OneClick::new(prompt, &camera(), None).expect("inside");
+        let region = |area: u64, column: u64, row: u64| Moments {
+            area,
+            column: area * column / 100,
+            row: area * row / 100,
+            column_column: 0,
+            column_row: 0,
+            row_row: 0,
+        };
+        assert!(!work.was_matched(&region(1000, 5000, 7000)));
+        let _ = work.matched.push(region(1000, 5000, 7000));
+        for (area, column, row, right) in [
+            (1000, 5000, 7000, true),
+            (1009, 5000, 7000, true),
+            (991, 5000, 7000, true),
+            (1010, 5000, 7000, false),
+            (989, 5000, 7000, false),
+            (1000, 5060, 7060, true),
+            (1000, 5080, 7080, false),
+            (1000, 4920, 6920, false),
+            (1000, 5100, 7000, false),
+        ] {
+            let matched = work.was_matched(&region(area, column, row));
+            assert_eq!(matched, right, "{area} {column} {row}");
+        }
+    }
+}

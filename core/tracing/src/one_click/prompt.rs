@@ -279,4 +279,31 @@ mod tests {
             (8, 9, 44, 22)
         );
     }
+
+    #[test]
+    fn a_click_begins_at_the_darkest_pixel_near_it() {
+        let window = Window {
+            left: 10,
+            top: 20,
+            width: 30,
+            height: 30,
+        };
+        let around = usize::try_from(AROUND).expect("a few pixels");
+        let begun = |dark: (usize, usize)| {
+            let mut grey = std::vec![100; window.pixels()];
+            grey[dark.1 * window.width + dark.0] = 50;
+            darkest_near(Point::new(25.5, 35.5), &window, &grey)
+        };
+        let at = |column: usize, row: usize| row * window.width + column;
+        for near in [
+            (15 + around, 15),
+            (15 - around, 15 + around),
+            (15, 15 - around),
+        ] {
+            assert_eq!(begun(near), at(near.0, near.1), "{near:?}");
+        }
+        for far in [(16 + around, 15), (15, 14 - around)] {
+            assert_eq!(begun(far), at(15, 15), "{far:?}");
+        }
+    }
 }

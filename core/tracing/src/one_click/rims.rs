@@ -275,3 +275,6 @@ fn fill_along(mask: &mut MaskMut<'_>, sample: &OutlineSample, length: f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

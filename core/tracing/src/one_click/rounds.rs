@@ -270,3 +270,6 @@ fn sides_of(
         rows.end as f64 + high,
     ])
 }
+
+#[cfg(test)]
+mod tests;

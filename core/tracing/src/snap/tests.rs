@@ -205,3 +205,29 @@ fn wrong_settings_and_lines_are_said() {
     let few = snap(&frame, &points[..2], &RING, memory(), &mut out);
     assert!(matches!(few, Err(TracingError::TooFewPoints { .. })));
 }
+
+#[test]
+fn the_mean_distance_of_what_was_moved_is_no_more_than_the_largest() {
+    for count in [40, 90] {
+        let (_, error) = snapped(&disc(0.0), &circle(MIDDLE, 50.4, count), &RING);
+        assert!(error.rms > 0.0 && error.rms <= error.max, "{error:?}");
+        assert!(error.max < 0.9, "{error:?}");
+    }
+}
+
+#[test]
+fn ends_of_a_line_and_ends_of_long_sides_stay() {
+    let at = [0.0, 2.0, 4.0, 4.0 + 2.0 * LONG, 6.0 + 2.0 * LONG];
+    let points = at.map(|column| Point::new(column, 0.0));
+    let kept = |closed, points: &[Point]| {
+        let vertices = points.iter().enumerate();
+        let stay = vertices.map(|(k, &at)| stays(points, closed, &Vertex::kept(k, at)));
+        stay.collect::<Vec<_>>()
+    };
+    assert_eq!(kept(false, &points), [true, false, true, true, true]);
+    // Closed, the first and the last are ends of the long way back.
+    assert_eq!(kept(true, &points[..3]), [true, false, true]);
+    assert_eq!(kept(true, &points[..2]), [false; 2]);
+    assert_eq!(kept(true, &points), [true, false, true, true, true]);
+    assert!(!stays(&points, false, &Vertex::new(points[0])));
+}

@@ -290,3 +290,28 @@ fn a_level_between_two_pixels_is_passed_where_a_slope_has_it() {
         );
     }
 }
+
+#[test]
+fn the_nearest_place_within_reach_is_found() {
+    let near = |inside: &[(usize, usize)], column: f64, row: f64| {
+        region::nearest_where((20, 10), Point::new(column, row), 3, |column, row| {
+            inside.contains(&(column, row))
+        })
+    };
+    let all = [(5, 5), (7, 6), (9, 5)];
+    assert_eq!(near(&all, 7.9, 5.1), Some((7, 6)));
+    assert_eq!(near(&all, 9.5, 5.5), Some((9, 5)));
+    assert_eq!(near(&all, 2.0, 5.0), Some((5, 5)));
+    assert_eq!(near(&all, 1.9, 5.0), None);
+    assert_eq!(near(&[(0, 0)], -2.5, -0.5), Some((0, 0)));
+    // What lies beyond the frame is never asked.
+    let asked = |column, row| {
+        assert!(column < 20 && row < 10);
+        true
+    };
+    let corner = Point::new(21.5, 9.5);
+    assert_eq!(
+        region::nearest_where((20, 10), corner, 3, asked),
+        Some((19, 9))
+    );
+}
