@@ -105,6 +105,8 @@ pub struct Reported {
 pub fn report(file: &Path, args: &Args) -> Result<Reported> {
     let study = Study::read(file)?;
     let sources = Sources::read(file, &study, args.poses.as_deref())?;
+    let of_files = sources.femur.of_file.iter().chain(&sources.tibia.of_file);
+    of_files.for_each(|remark| eprintln!("{remark}"));
     let filtering = Filtering::new(frames_per_s(args.fps, &study), args.cutoff)?;
     let knee = Knee::new(&study.name, of_body(study.known_side()?), &sources)?;
     let film = knee.film(&sources, &filtering)?;

@@ -23,6 +23,8 @@ pub struct Body {
     pub stated_axes: Option<String>,
     /// Its model.
     pub model: OwnedModel,
+    /// What there is to say of the model's file.
+    pub of_file: Vec<String>,
     /// Its poses, a row a frame.
     pub poses: Vec<Option<Pose>>,
     /// By frame, from 0, where they are known.
@@ -253,10 +255,13 @@ impl Body {
             }
             false => BTreeMap::new(),
         };
+        let (model, remarks) = component.read_model_and_remarks()?;
+        let told = |remark| format!("{}: {remark}", component.model.display());
         Ok(Self {
             name: component.name.clone(),
             stated_axes: component.axes.clone(),
-            model: component.read_model()?,
+            model,
+            of_file: remarks.into_iter().map(told).collect(),
             poses: match poses {
                 // Its covariances are put to the frames with them.
                 Some(_) => read_poses(&file)?,
