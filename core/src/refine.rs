@@ -63,7 +63,7 @@ pub use memory::{FILM_EVERY, RefineMemory};
 pub use offset::outline_offset;
 pub use options::RefineOptions;
 pub use places::places_needed;
-pub use polarity::{polarity_at, polarity_inside, polarity_near};
+pub use polarity::{polarity_across, polarity_at, polarity_inside, polarity_near};
 pub use profiles::film_profiles;
 pub use readings::{OutlineReading, outline_readings};
 pub(crate) use refinement::{Part, Refinement};

@@ -28,6 +28,8 @@ test('the npm module finds what the native program finds', { timeout: 3 * PATIEN
   const { openImplant } = await from('node.js');
   const core = await from('pkg/core/fluoropose_wasm.js');
   const frame = { width: native.side, height: native.side };
+  /** @type {Record<string, any>} */
+  const opened = {};
   for (const [name, digest] of Object.entries(native.libraries)) {
     const { buffer: model } = await demoFile(`${name}.stl`);
     const implant = await openImplant({ model, calibration: native.calibration, frame });
@@ -48,9 +50,24 @@ test('the npm module finds what the native program finds', { timeout: 3 * PATIEN
       await t.test(`${name}: on a soft frame, whose film is read in squares`, () => onSoftFrame(core, implant, module.estimateFilm, native));
     }
     matcher.free();
-    implant.close();
+    opened[name] = implant;
   }
+  await t.test('the other component tells what no knee does', () => besideTheFemur(opened, native));
+  for (const implant of Object.values(opened)) implant.close();
 });
+
+/** A femur as the tray lies, and turned by a right angle; the built-in files have the field's axes, and so their shapes tell. @param {Record<string, any>} opened @param {Native} native */
+function besideTheFemur({ femur, tibia }, { cases }) {
+  const { outline, chosen, candidates } = /** @type {Case} */ (cases.find(({ model, verdict }) => model === 'tibia' && verdict !== 'none'));
+  const [x, y, z, zRot, xRot, yRot] = /** @type {number[]} */ (candidates[chosen]);
+  const beside = (/** @type {number} */ turn) => ({ x, y, z, zRot, xRot, yRot: Number(yRot) + turn });
+  for (const hint of [beside(0), { implant: femur, pose: beside(0) }]) assert.equal(tibia.pose(outline, { femur: hint }).verdict.word, 'good');
+  for (const hint of [beside(90), { implant: femur, pose: beside(90) }]) {
+    const { verdict } = tibia.pose(outline, { femur: hint });
+    assert.equal(verdict.word, 'doubtful');
+    assert.match(verdict.because, /mediolateral axis is (8[5-9]|90)° from the other component's, which no knee does/);
+  }
+}
 
 /** Drawn as the native program draws it: dark by how many of the pixels round each lie inside. @param {any} core @param {Native} native @param {number} reach */
 function frameOf(core, { side, image }, reach) {

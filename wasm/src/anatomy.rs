@@ -5,7 +5,7 @@ use fluoropose::mesh::Mesh;
 use fluoropose::mesh::anatomy::{
     AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape, field_axes,
 };
-use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
@@ -63,30 +63,36 @@ pub fn shape_axes(
     femoral: bool,
 ) -> Result<ShapeAxes, JsError> {
     let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0).map_err(sentence)?;
-    let planes = symmetry_planes(&mesh);
-    let component = match femoral {
-        true => KneeComponent::Femur,
-        false => KneeComponent::Tibia,
-    };
-    if let Some(found) = anatomical_axes(&mesh, &planes, component) {
-        return Ok(ShapeAxes {
-            model_from_field: found.model_from_field,
-            told: if found.front_is_known {
-                "all"
+    Ok(ShapeAxes::of(&mesh, &symmetry_planes(&mesh), femoral))
+}
+
+impl ShapeAxes {
+    /// Of a mesh with these symmetry planes.
+    pub(crate) fn of(mesh: &Mesh<'_>, planes: &[SymmetryPlane], femoral: bool) -> Self {
+        let component = match femoral {
+            true => KneeComponent::Femur,
+            false => KneeComponent::Tibia,
+        };
+        if let Some(found) = anatomical_axes(mesh, planes, component) {
+            return Self {
+                model_from_field: found.model_from_field,
+                told: if found.front_is_known {
+                    "all"
+                } else {
+                    "not the front"
+                },
+            };
+        }
+        let directions = field_axes(mesh, planes, component);
+        Self {
+            told: if directions.is_some() {
+                "no signs"
             } else {
-                "not the front"
+                "nothing"
             },
-        });
+            model_from_field: directions.unwrap_or(Pose::IDENTITY),
+        }
     }
-    let directions = field_axes(&mesh, &planes, component);
-    Ok(ShapeAxes {
-        told: if directions.is_some() {
-            "no signs"
-        } else {
-            "nothing"
-        },
-        model_from_field: directions.unwrap_or(Pose::IDENTITY),
-    })
 }
 
 /// Which knee a femoral component is made for, as its flange tells: `left` or `right`; nothing where it does not tell. `axes` are nine

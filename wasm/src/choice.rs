@@ -128,6 +128,12 @@ impl Surroundings {
             Reason::Residual { chosen_px, .. } => {
                 format!("By the residual: {chosen_px:.2} px; the others do not fit at all.")
             }
+            Reason::Knee {
+                chosen_deg,
+                other_deg,
+            } => format!(
+                "By the {other}: mediolateral axes are {chosen_deg:.0}° apart, with the pose ruled out {other_deg:.0}°, which no knee does."
+            ),
             Reason::Tilt {
                 chosen_deg,
                 other_deg,
@@ -243,8 +249,12 @@ impl Chosen {
     }
 }
 
-/// What [`fluoropose::finder::judge`] says of an open choice.
+/// What [`fluoropose::finder::judge`] says of a choice beside the fit.
 fn doubt_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
+    Doubt::no_knee(choice).or_else(|| open_among(candidates, choice))
+}
+
+fn open_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
     let open = choice.open?;
     let (chosen, other) = (candidates.get(choice.index)?, candidates.get(open.index)?);
     Some(Doubt::open(&chosen.pose, &other.pose, other.residual_px))

@@ -19,16 +19,16 @@ use fluoropose::camera::Camera;
 use fluoropose::canonical::reverse;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::{FinderBuffers, Found, Goal, Verdict};
-use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{Mask, Word};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, locate};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{CameraView, ImageTarget, Polarity, polarity_inside};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, polarity_across};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
+use crate::anatomy::ShapeAxes;
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::{Candidate, Match};
@@ -153,6 +153,11 @@ impl Matcher {
         model.map_or_else(Vec::new, WorkingModel::remarks)
     }
 
+    /// What the shape of the model that was lent tells of its axes, as a femoral component's or a tray's; nothing without a model.
+    pub fn axes(&mut self, femoral: bool) -> Option<ShapeAxes> {
+        self.model.as_mut().map(|model| model.axes(femoral))
+    }
+
     /// A copy of the library's bytes.
     #[wasm_bindgen(getter)]
     pub fn bytes(&self) -> Vec<u8> {
@@ -234,7 +239,7 @@ impl Matcher {
         frame.look(|frame| {
             traced.look(|silhouette| {
                 let polarity = bright_implant
-                    .map_or_else(|| told_inside(frame, silhouette.mask()), Polarity::of);
+                    .map_or_else(|| polarity_across(frame, silhouette.mask()), Polarity::of);
                 let image = ImageTarget {
                     frame,
                     // What hides a side has edges of its own.
@@ -461,11 +466,4 @@ fn within<T: Copy>(items: &[T], score: impl Fn(&T) -> f64) -> Vec<T> {
         .copied()
         .filter(|item| score(item) <= limit)
         .collect()
-}
-
-/// Whether a frame shows metal darker or brighter than what surrounds it, by an implant's silhouette.
-fn told_inside(frame: &dyn Grey, silhouette: &Mask<'_>) -> Polarity {
-    let (columns, rows) = silhouette.bounds();
-    let area = [columns.start, rows.start, columns.end, rows.end];
-    polarity_inside(frame, area.map(|at| at as f64))
 }

@@ -28,6 +28,7 @@ mod answers;
 
 pub(crate) use answers::{Assessed, Fit, Judged, Ranked};
 
+use crate::anatomy::ShapeAxes;
 use crate::found::{Uncertainty, uncertainty};
 use crate::squares::{side_of, square_px};
 use fluoropose_page::error::sentence;
@@ -71,6 +72,12 @@ impl WorkingModel {
     /// What a person should know of it.
     pub(crate) fn remarks(&self) -> Vec<String> {
         self.owned.remarks()
+    }
+
+    /// What its shape tells of its axes, as a femoral component's or a tray's.
+    pub(crate) fn axes(&mut self, femoral: bool) -> ShapeAxes {
+        let model = self.owned.as_model();
+        ShapeAxes::of(model.mesh(), planes_of(&mut self.planes, &model), femoral)
     }
 
     /// Calls `with` with the component that a library and this model make, and memory to find it.

@@ -6,15 +6,19 @@
 //! that ruled out any is the reason given:
 //!
 //! 1. the residual, where it is [`DECISIVE_RATIO`] times as large;
-//! 2. the coronal tilt against the other component ([`coronal_tilt_deg`]), the smaller the better;
-//! 3. the turn from the same component in neighbouring frames, the smaller the better.
+//! 2. what no knee does with the other component ([`across_deg`] of [`KNEE_DEG`]), where another pose makes a knee with it;
+//! 3. the coronal tilt against the other component ([`coronal_tilt_deg`]), the smaller the better, of poses that make a knee
+//!    with it: in axes that are not the components' a tilt says nothing;
+//! 4. the turn from the same component in neighbouring frames, the smaller the better.
 //!
 //! Of the poses that are left the one with the least residual is taken, and the next is named as
 //! open. On network masks of a real tibia, its femur known, tilt ruled out the mirror image in 16
 //! of 16 frames and left one other pose open, 8 to 21 degrees away and of 1.02 to 1.22 times the
 //! residual; the pose taken was right in all of them. A whole film is decided at once by [`choose_film`].
 //!
-//! Rule 2 needs models with the field's axes: x anteroposterior, y superoinferior (the tibial
+//! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]).
+//!
+//! Rules 2 and 3 need models with the field's axes: x anteroposterior, y superoinferior (the tibial
 //! component's along its stem, upwards), z mediolateral.
 
 mod film;
@@ -25,7 +29,7 @@ use core::fmt;
 
 use heapless::Vec;
 
-use crate::joint::kinematics::coronal_tilt_deg;
+use crate::joint::kinematics::{across_deg, coronal_tilt_deg};
 use crate::math::round;
 use crate::pose::{Pose, geodesic_deg};
 use crate::shortlist::{first_of, smallest};
@@ -40,6 +44,10 @@ pub const DECISIVE_RATIO: f64 = 1.3;
 /// tibia's tilt was smaller by 3.6 to 5.0 degrees; with the tibia known, the right femur's smaller
 /// by up to 2.9, but in four frames larger, by up to 1.7.
 pub const TILT_MARGIN_DEG: f64 = 2.0;
+
+/// The mediolateral axes of two components of a knee are no farther apart, degrees: kneeling turns a knee by 30, and axes may be some degrees
+/// off. A judgement.
+pub const KNEE_DEG: f64 = 50.0;
 
 /// The neighbouring frames decide nothing between poses whose rotations from them differ by less than this, degrees.
 pub const TURN_MARGIN_DEG: f64 = 2.0;
@@ -75,6 +83,13 @@ impl Counterpart {
             Self::Tibia(tibia) => coronal_tilt_deg(candidate, tibia),
         }
     }
+
+    /// How far the mediolateral axes of both components are apart, degrees, where that is farther than in any knee.
+    #[must_use]
+    pub fn no_knee_deg(&self, candidate: &Pose) -> Option<f64> {
+        let (Self::Femur(known) | Self::Tibia(known)) = self;
+        Some(across_deg(known, candidate)).filter(|&deg| deg > KNEE_DEG)
+    }
 }
 
 /// What is known of a frame besides its candidates.
@@ -98,6 +113,13 @@ pub enum Reason {
         chosen_px: f64,
         /// Of the best ruled out, pixels.
         other_px: f64,
+    },
+    /// What no knee does with the other component: how far the mediolateral axes of both are apart.
+    Knee {
+        /// With the chosen pose, degrees.
+        chosen_deg: f64,
+        /// With the best ruled out, degrees.
+        other_deg: f64,
     },
     /// The coronal tilt against the other component.
     Tilt {
@@ -146,6 +168,13 @@ impl fmt::Display for Reason {
                 chosen_px,
                 other_px,
             } => write!(f, "residual {chosen_px:.3} px against {other_px:.3} px"),
+            Self::Knee {
+                chosen_deg,
+                other_deg,
+            } => write!(
+                f,
+                "mediolateral axes {chosen_deg:.0} deg from the other component's against {other_deg:.0} deg, which no knee does"
+            ),
             Self::Tilt {
                 chosen_deg,
                 other_deg,
@@ -195,6 +224,9 @@ pub struct Choice {
     pub reason: Reason,
     /// The best of what nothing ruled out: show it beside the chosen pose.
     pub open: Option<OpenRival>,
+    /// How far the mediolateral axes are from the other component's, degrees, where that is known and no knee does it: a pose or the
+    /// axes of a model are wrong.
+    pub no_knee_deg: Option<f64>,
 }
 
 impl Choice {
@@ -236,6 +268,11 @@ pub fn choose(candidates: &[RivalPose], context: &ChoiceContext<'_>) -> Option<C
     contenders.choice()
 }
 
+/// How far a pose is from a knee with the other component, where it is none ([`Counterpart::no_knee_deg`]).
+fn no_knee_deg(counterpart: Option<&Counterpart>, candidate: Option<&RivalPose>) -> Option<f64> {
+    counterpart?.no_knee_deg(&candidate?.pose)
+}
+
 /// Mean angle to the neighbours; NaN without any.
 fn mean_turn_deg(pose: &Pose, neighbours: &[Pose]) -> f64 {
     let turn = |other: &Pose| geodesic_deg(&pose.rotation, &other.rotation);
@@ -245,21 +282,27 @@ fn mean_turn_deg(pose: &Pose, neighbours: &[Pose]) -> f64 {
 /// Candidates that are still open, by rising residual, and why others are not.
 struct Contenders<'a> {
     candidates: &'a [RivalPose],
+    counterpart: Option<&'a Counterpart>,
     open: Vec<usize, CONTENDERS>,
     reason: Option<Reason>,
 }
 
 impl<'a> Contenders<'a> {
     /// What the candidates' residuals and the counterpart leave open.
-    fn of(candidates: &'a [RivalPose], counterpart: Option<&Counterpart>) -> Self {
+    fn of(candidates: &'a [RivalPose], counterpart: Option<&'a Counterpart>) -> Self {
         let mut contenders = Self {
             candidates,
+            counterpart,
             open: Vec::new(),
             reason: None,
         };
         contenders.sort();
         contenders.rule_by_residual();
-        let tilt = |pose: &Pose| counterpart.map_or(f64::NAN, |known| known.tilt_deg(pose));
+        contenders.rule_by_knee();
+        let tilt = |pose: &Pose| match counterpart {
+            Some(known) if known.no_knee_deg(pose).is_none() => known.tilt_deg(pose),
+            _ => f64::NAN,
+        };
         if let Some((chosen_deg, other_deg)) = contenders.narrow(&tilt, TILT_MARGIN_DEG) {
             contenders.reason = Some(Reason::Tilt {
                 chosen_deg,
@@ -285,6 +328,7 @@ impl<'a> Contenders<'a> {
             index,
             reason: self.reason.unwrap_or_else(undecided),
             open,
+            no_knee_deg: no_knee_deg(self.counterpart, self.candidates.get(index)),
         })
     }
 
@@ -321,6 +365,28 @@ impl<'a> Contenders<'a> {
                 other_px,
             });
         }
+    }
+
+    /// Where some poses make a knee with the other component, those that do not are ruled out.
+    fn rule_by_knee(&mut self) {
+        let Some(counterpart) = self.counterpart else {
+            return;
+        };
+        let wrong_deg = |&index: &usize| no_knee_deg(Some(counterpart), self.candidates.get(index));
+        let possible = || self.open.iter().filter(|index| wrong_deg(index).is_none());
+        let other_deg = self.open.iter().find_map(wrong_deg);
+        let chosen = possible()
+            .next()
+            .and_then(|&index| self.candidates.get(index));
+        let (Some(chosen), Some(other_deg)) = (chosen, other_deg) else {
+            return;
+        };
+        let (Counterpart::Femur(known) | Counterpart::Tibia(known)) = counterpart;
+        self.reason = Some(Reason::Knee {
+            chosen_deg: across_deg(known, &chosen.pose),
+            other_deg,
+        });
+        self.open = first_of(possible().copied());
     }
 
     /// Rules out those whose angle is larger in magnitude than the smallest by `margin`. If there

@@ -106,6 +106,11 @@ pub enum Doubt {
         /// Its misfit, pixels.
         other_px: f64,
     },
+    /// The other component is turned or tilted as in no knee.
+    NoKnee {
+        /// How far the mediolateral axes of both are apart, degrees.
+        apart_deg: f64,
+    },
     /// The other component lies beside it as in no knee: the picture may be mirrored.
     Mirrored(Beside),
 }
@@ -170,6 +175,13 @@ impl fmt::Display for Verdict {
 }
 
 impl Doubt {
+    /// That a chosen pose makes no knee with the other component, where it does not.
+    #[must_use]
+    pub fn no_knee(choice: &Choice) -> Option<Self> {
+        let apart_deg = choice.no_knee_deg?;
+        Some(Self::NoKnee { apart_deg })
+    }
+
     /// That another pose than the chosen one fits as well, with its misfit in pixels.
     #[must_use]
     pub fn open(chosen: &Pose, other: &Pose, other_px: f64) -> Self {
@@ -230,25 +242,34 @@ impl fmt::Display for Doubt {
                 turn_deg,
                 shift_mm,
                 other_px,
-            } => {
-                let (away, unit) = away(turn_deg, shift_mm);
-                write!(
-                    f,
-                    "another pose, {away} {unit} away, fits as well ({} px), and nothing tells which is right",
-                    Decimal::new(other_px, 2)
-                )
-            }
+            } => write!(
+                f,
+                "another pose, {} away, fits as well ({} px), and nothing tells which is right",
+                Away(turn_deg, shift_mm),
+                Decimal::new(other_px, 2)
+            ),
+            Self::NoKnee { apart_deg } => write!(
+                f,
+                "its mediolateral axis is {}\u{b0} from the other component's, which no knee does: one of both poses or the axes of a model are wrong",
+                Decimal::new(apart_deg, 0)
+            ),
             Self::Mirrored(beside) => beside.fmt(f),
         }
     }
 }
 
-/// How far away another pose is, as it is written: by its turn, and where that would be 0, by its shift.
-fn away(turn_deg: f64, shift_mm: f64) -> (Decimal, &'static str) {
-    match turn_deg {
-        ..0.5 => (Decimal::new(shift_mm, 0), "mm"),
-        ..1.5 => (Decimal::new(turn_deg, 0), "degree"),
-        _ => (Decimal::new(turn_deg, 0), "degrees"),
+/// How far away another pose is, degrees and mm, as it is written: by its turn, and where that would be 0, by its shift.
+struct Away(f64, f64);
+
+impl fmt::Display for Away {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(turn_deg, shift_mm) = *self;
+        let (away, unit) = match turn_deg {
+            ..0.5 => (shift_mm, "mm"),
+            ..1.5 => (turn_deg, "degree"),
+            _ => (turn_deg, "degrees"),
+        };
+        write!(f, "{} {unit}", Decimal::new(away, 0))
     }
 }
 
@@ -297,7 +318,8 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
         Some(Doubt::open(&chosen.pose, &other.pose, other.misfit()))
     });
     let determined = chosen.refined.is_none() || chosen.covariance.is_some();
-    Some(judge_fit(&chosen.fit, determined, limits).or_doubt(open))
+    let alone = judge_fit(&chosen.fit, determined, limits);
+    Some(alone.or_doubt(Doubt::no_knee(choice)).or_doubt(open))
 }
 
 /// How far a pose is to be trusted by itself, whatever other poses do; `determined` where its uncertainty is known, or was

@@ -129,6 +129,16 @@ pub fn coronal_tilt_deg(femur: &Pose, tibia: &Pose) -> f64 {
     degrees(asin(dot(&mediolateral, &upwards)))
 }
 
+/// The angle between the mediolateral axes of the two components as lines, degrees, 0 to 90: whose side of the body it is does
+/// not matter, nor which end of an axis is which. Of a knee it is what abduction and axial rotation are together.
+///
+/// Model axes as of [`coronal_tilt_deg`].
+#[must_use]
+pub fn across_deg(femur: &Pose, tibia: &Pose) -> f64 {
+    let [a, b] = [femur, tibia].map(|pose| apply(&pose.rotation, &[0.0, 0.0, 1.0]));
+    90.0 - degrees(asin(dot(&a, &b).abs().min(1.0)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,6 +153,31 @@ mod tests {
             x_rot_deg,
             y_rot_deg,
         })
+    }
+
+    #[test]
+    fn how_far_a_knee_turns_and_tilts_is_told_whichever_way_axes_point() {
+        let femur = pose(4.0, -17.0, -1083.0, [8.0, 5.0, -1.0]);
+        for (turn, abduction) in [
+            (0.0, 0.0),
+            (30.0, 0.0),
+            (-79.0, 0.0),
+            (0.0, 40.0),
+            (20.0, 10.0),
+        ] {
+            // Flexion is about the mediolateral axis, and says nothing.
+            for flexion in [0.0, 110.0] {
+                let flexed = femur.compose(&pose(0.0, 0.0, 0.0, [flexion, 0.0, 0.0]));
+                let tibia = flexed.compose(&pose(0.0, 0.0, 0.0, [0.0, abduction, turn]));
+                let cosine = f64::cos(f64::to_radians(turn)) * f64::cos(f64::to_radians(abduction));
+                let known = cosine.acos().to_degrees();
+                for other in [tibia, tibia.compose(&HALF_TURN)] {
+                    let told = across_deg(&femur, &other);
+                    assert!((told - known).abs() < 1e-6, "{told} for {known}");
+                    assert!((across_deg(&other, &femur) - told).abs() < 1e-9);
+                }
+            }
+        }
     }
 
     #[test]

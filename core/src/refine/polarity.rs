@@ -8,6 +8,7 @@ use super::samples::outline_samples;
 use super::view::Polarity;
 use crate::camera::Camera;
 use crate::image::grey::Grey;
+use crate::image::mask::Mask;
 use crate::mesh::Model;
 use crate::pose::Pose;
 
@@ -50,6 +51,48 @@ pub fn polarity_at(
         }
     })?;
     Ok(Polarity::of(darker_inside < 0.0))
+}
+
+/// The polarity of a frame in which an implant has this silhouette: whether most of its border is darker inside than outside. Where the
+/// silhouette is too thin to tell, what lies in its bounds does ([`polarity_inside`]).
+#[must_use]
+pub fn polarity_across(frame: &dyn Grey, silhouette: &Mask<'_>) -> Polarity {
+    let (columns, rows) = silhouette.bounds();
+    let mut darker_inside = 0i64;
+    let mut look = |inside: [f64; 2], outside: [f64; 2]| {
+        let holds = |[column, row]: [f64; 2]| {
+            column >= 0.0 && row >= 0.0 && silhouette.get(column as usize, row as usize)
+        };
+        if !holds(inside) || holds(outside) {
+            return;
+        }
+        let [inside, outside] = [inside, outside].map(|[column, row]| frame.at(column, row));
+        if let (Some(inside), Some(outside)) = (inside, outside) {
+            darker_inside += i64::from(outside > inside) - i64::from(outside < inside);
+        }
+    };
+    for row in rows.start..=rows.end {
+        for column in columns.start..=columns.end {
+            let here = silhouette.get(column, row);
+            let [x, y] = [column, row].map(|at| at as f64);
+            // Across the border to the left of the pixel, and across that above it.
+            if here != (column > 0 && silhouette.get(column - 1, row)) {
+                let sides = [[x + ASIDE, y + 0.5], [x - ASIDE, y + 0.5]];
+                look(sides[usize::from(!here)], sides[usize::from(here)]);
+            }
+            if here != (row > 0 && silhouette.get(column, row - 1)) {
+                let sides = [[x + 0.5, y + ASIDE], [x + 0.5, y - ASIDE]];
+                look(sides[usize::from(!here)], sides[usize::from(here)]);
+            }
+        }
+    }
+    match darker_inside {
+        0 => polarity_inside(
+            frame,
+            [columns.start, rows.start, columns.end, rows.end].map(|at| at as f64),
+        ),
+        votes => Polarity::of(votes < 0),
+    }
 }
 
 /// The polarity of a frame with metal at this place (column, row, pixels): whether it is darker there than in most of what
@@ -196,6 +239,50 @@ mod tests {
             let found = polarity_at(&model, &camera, &pose, &frame, memory).expect("drawn");
             assert_eq!(found, Polarity::of(metal > around), "{metal}");
         }
+    }
+
+    /// Bright metal in a round field with a white surround near it.
+    #[test]
+    fn a_silhouette_tells_the_polarity_whatever_lies_farther_off() {
+        use crate::image::mask::{MaskMut, words_needed};
+        let is_metal =
+            |column: usize, row: usize| (56..76).contains(&column) && (40..80).contains(&row);
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        (40..80).for_each(|row| mask.fill_span(row, 56, 76));
+        let mask = mask.into_mask();
+        for (metal, tissue, surround) in
+            [(130, 90, 255), (90, 130, 0), (0, 40, 30), (255, 190, 255)]
+        {
+            let pixel = |k: usize| {
+                let (column, row) = (k % SIDE, k / SIDE);
+                let (dx, dy) = (column.abs_diff(50), row.abs_diff(60));
+                match () {
+                    () if is_metal(column, row) => metal,
+                    () if dx * dx + dy * dy > 33 * 33 => surround,
+                    () => tissue,
+                }
+            };
+            let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE).map(pixel).collect();
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let told = polarity_across(&frame, &mask);
+            assert_eq!(told, Polarity::of(metal > tissue), "{metal} {tissue}");
+        }
+        // A line is too thin: what lies round it tells.
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut line = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        line.fill_span(60, 40, 80);
+        let line = line.into_mask();
+        for (bright, inverted) in [(false, false), (true, true)] {
+            let pixels = pixels(60, inverted);
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            assert_eq!(polarity_across(&frame, &line), Polarity::of(bright));
+        }
+        let nothing = std::vec![0; words_needed(SIDE, SIDE)];
+        let nothing = Mask::new(&nothing, SIDE, SIDE).expect("fits");
+        let frame = std::vec![9u8; SIDE * SIDE];
+        let frame = Frame::new(&frame, SIDE, SIDE, SIDE).expect("fits");
+        assert_eq!(polarity_across(&frame, &nothing), Polarity::DarkImplant);
     }
 
     #[test]

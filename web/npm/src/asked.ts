@@ -31,7 +31,7 @@ export function checkHints(hints: unknown, frame: Size, from: string): void {
   }
   if (film && !image) throw new Error(`${from}: film says how an image is to be read; give the image too, or leave film out`);
   if (image !== undefined && image !== null) checkImage(image, frame, from);
-  for (const [name, pose] of Object.entries({ femur, tibia })) if (pose !== undefined) checkPose(pose, `${from}: ${name}`);
+  for (const [name, beside] of Object.entries({ femur, tibia })) if (beside !== undefined) checkBeside(beside, `${from}: ${name}`);
   if (!Array.isArray(neighbours)) throw new Error(`${from}: neighbours should be an array of poses`);
   for (const pose of neighbours) checkPose(pose, `${from}: neighbours`);
 }
@@ -48,6 +48,14 @@ export function checkImage(image: unknown, { width, height }: Size, from: string
   if (image.every((value) => value === first)) {
     throw new Error(`${from}: image has the grey value ${first} everywhere: nothing is to be seen in it; give the frame that was traced, or leave image out`);
   }
+}
+
+/** A pose, or an implant with its pose. */
+function checkBeside(beside: unknown, from: string): void {
+  if (!isObject(beside) || !('implant' in beside)) return checkPose(beside, from);
+  const { implant, pose } = known(beside, ['implant', 'pose'], from);
+  if (!isObject(implant) || typeof implant['axes'] !== 'function') throw new Error(`${from}: implant should be what openImplant gave`);
+  checkPose(pose, `${from}: pose`);
 }
 
 export function checkPose(pose: unknown, from: string): void {

@@ -5,10 +5,10 @@ import { withImage } from './frame_image.js';
 import { buildLibrary } from './library.js';
 import init, { cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
-import type { Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
+import type { Beside, Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Shaped, Size, Verdict } from './types.js';
 
 export { estimateFilm, type FilmSource } from './film.js';
-export type { Candidate, Film, FilmConstants, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, StatedFilm, Verdict, Views } from './types.js';
+export type { Beside, Candidate, Film, FilmConstants, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Shaped, Size, StatedFilm, Verdict, Views } from './types.js';
 
 let ready: Promise<unknown> | undefined;
 
@@ -61,7 +61,7 @@ export class Implant {
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     checkOutline(outline);
     checkHints(hints, this.#frame, 'pose');
-    const around = surroundings(hints);
+    const around = surroundings(hints, this);
     try {
       const { image, film, bright } = hints;
       return this.#look(outline, hints, (traced) =>
@@ -94,6 +94,18 @@ export class Implant {
     }
   }
 
+  /**
+   * The directions anterior, superior and to the patient's right in the model's file, nine numbers, as its shape tells them. Throws where it
+   * does not.
+   */
+  axes(component: 'femur' | 'tibia'): Float64Array {
+    const axes = this.#matcher.axes(component === 'femur')!;
+    const { told, directions } = axes;
+    axes.free();
+    if (told === 'nothing') throw new Error(`The shape of the ${component} does not tell its axes: leave it out, or give its pose alone where both files have the field's axes`);
+    return directions;
+  }
+
   /** Lets go of WebAssembly's memory; `library` stays. To close it twice does nothing more. */
   close(): void {
     if (!this.#closed) this.#opened.free();
@@ -122,12 +134,19 @@ function isMesh(model: ImplantOptions['model']): model is Mesh {
   return 'vertices' in model;
 }
 
-function surroundings({ femur, tibia, neighbours = [] }: Hints): Surroundings {
+function surroundings({ femur, tibia, neighbours = [] }: Hints, own: Shaped): Surroundings {
   const around = new Surroundings();
-  if (femur) around.setFemur(numbers(femur));
-  if (tibia) around.setTibia(numbers(tibia));
+  const other = femur ?? tibia;
+  if (other && 'implant' in other) around.setAxes(own.axes(femur ? 'tibia' : 'femur'));
+  if (femur) around.setFemur(...lying(femur, 'femur'));
+  if (tibia) around.setTibia(...lying(tibia, 'tibia'));
   for (const pose of neighbours) around.addNeighbour(numbers(pose));
   return around;
+}
+
+/** A pose, and the axes of its implant where that is there. */
+function lying(beside: Beside | Pose, component: 'femur' | 'tibia'): readonly [Float64Array, Float64Array?] {
+  return 'implant' in beside ? [numbers(beside.pose), beside.implant.axes(component)] : [numbers(beside)];
 }
 
 /** Copies what was found out of WebAssembly's memory and frees it there. */

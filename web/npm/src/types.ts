@@ -95,6 +95,18 @@ export interface FilmConstants {
   readonly models: ReadonlyMap<object, readonly number[]>;
 }
 
+/** The joint's other component in a frame: how both lie to each other is taken in the axes that their shapes tell, whatever those of the files. */
+export interface Beside {
+  /** An `Implant`. */
+  readonly implant: Shaped;
+  readonly pose: Pose;
+}
+
+/** Who knows its axes by its shape: an `Implant`. */
+export interface Shaped {
+  axes(component: 'femur' | 'tibia'): Float64Array;
+}
+
 /** What else is known of an outline and of what is round it. */
 export interface Hints {
   /** Sides of the outline that are not to be trusted, from 0: side `i` runs from point `i` to the next. */
@@ -105,10 +117,10 @@ export interface Hints {
    * `film` it is not. An outline that was `drawn` from the model itself lies on it.
    */
   readonly laidBy?: 'hand' | 'drawn' | 'tool' | 'mixed';
-  /** Pose of the femoral component in the same frame, for a tibial one. */
-  readonly femur?: Pose;
-  /** Pose of the tibial component in the same frame, for a femoral one. */
-  readonly tibia?: Pose;
+  /** The femoral component in the same frame, for a tibial one; a pose alone is taken in the axes of both files, which have to be the field's. */
+  readonly femur?: Beside | Pose;
+  /** The tibial component in the same frame, for a femoral one; as `femur`. */
+  readonly tibia?: Beside | Pose;
   /** Poses of the same component in the frames before and after. */
   readonly neighbours?: readonly Pose[];
   /** The frame that was traced: poses are then brought onto its edges. */

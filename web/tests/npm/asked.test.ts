@@ -13,6 +13,18 @@ describe('what the npm module is asked', () => {
     checkHints({ femur: POSE, neighbours: [POSE], unknownSides: [1], laidBy: 'tool', film: undefined }, FRAME, 'pose');
   });
 
+  it('has the other component by its pose, or by its implant and that', () => {
+    const implant = { axes: () => new Float64Array(9) };
+    for (const tibia of [POSE, { implant, pose: POSE }]) checkHints({ tibia }, FRAME, 'pose');
+    for (const [tibia, sentence] of [
+      [{ implant: {}, pose: POSE }, /tibia: implant should be what openImplant gave/],
+      [{ implant, pose: { x: 1 } }, /tibia: pose should be a pose \{ x, y, z/],
+      [{ implant, pose: POSE, axes: [] }, /tibia has no option axes; it has implant, pose/],
+    ] as const) {
+      expect(() => checkHints({ tibia }, FRAME, 'pose')).toThrow(sentence);
+    }
+  });
+
   it.each([
     [undefined, /openImplant takes an object with model, calibration, frame/],
     [{ ...OPTIONS, frame: undefined }, /frame should be \{ width, height \}/],

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::{
     CONTENDERS, Choice, Contenders, Counterpart, DECISIVE_RATIO, OpenRival, Reason, RivalPose,
+    no_knee_deg,
 };
 use crate::pose::{Pose, geodesic_deg};
 
@@ -156,10 +157,12 @@ impl FilmStep {
                 other_px: open.other_px,
             },
         };
+        let candidate = frame.candidates.get(index);
         Choice {
             index,
             reason,
             open,
+            no_knee_deg: no_knee_deg(frame.counterpart.as_ref(), candidate),
         }
     }
 }

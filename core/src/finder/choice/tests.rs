@@ -72,6 +72,60 @@ fn a_decisive_residual_decides_against_tilt_and_time() {
     assert!(matches!(choice.reason, Reason::Tilt { .. }));
 }
 
+/// A tray turned by 79 degrees fits better and tilts less.
+#[test]
+fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
+    let (femur, right) = knee();
+    let turned = |deg: f64| {
+        let about = EulerPose::from([0.0, 0.0, 0.0, 0.0, 0.0, deg]);
+        right.compose(&Pose::from(about))
+    };
+    let context = ChoiceContext {
+        counterpart: Some(Counterpart::Femur(femur)),
+        neighbours: &[],
+    };
+    let (wrong, tilted) = (candidate(turned(-79.0), 1.0), candidate(right, 1.2));
+    let choice = choose(&[wrong, tilted], &context).expect("two");
+    assert_eq!((choice.index, choice.no_knee_deg), (1, None));
+    let Reason::Knee { other_deg, .. } = choice.reason else {
+        panic!("{choice}")
+    };
+    assert!(other_deg > 70.0 && choice.is_decided());
+    assert!(
+        choice.to_string().ends_with("which no knee does"),
+        "{choice}"
+    );
+    // Decisively better it stays, and is doubtful; so it is alone, where tilts say nothing.
+    for candidates in [
+        &[wrong, candidate(right, 1.3)][..],
+        &[wrong],
+        &[wrong, candidate(turned(-75.0), 1.1)],
+    ] {
+        let choice = choose(candidates, &context).expect("some");
+        assert_eq!(choice.index, 0);
+        assert!(choice.no_knee_deg.is_some_and(|deg| deg > 70.0));
+        assert!(!matches!(
+            choice.reason,
+            Reason::Knee { .. } | Reason::Tilt { .. }
+        ));
+    }
+    // So it is over a film, and with the femur sought.
+    let film = [FilmFrame {
+        candidates: &[wrong, candidate(turned(-75.0), 1.1)],
+        counterpart: context.counterpart,
+    }];
+    let mut choices = [None];
+    choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
+    assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_some()));
+    let sought = ChoiceContext {
+        counterpart: Some(Counterpart::Tibia(turned(-79.0))),
+        neighbours: &[],
+    };
+    let choice = choose(&[candidate(femur, 1.0)], &sought).expect("one");
+    assert!(choice.no_knee_deg.is_some());
+    assert_eq!(choose(&[wrong], &NOTHING).expect("one").no_knee_deg, None);
+}
+
 #[test]
 fn a_perfect_fit_beats_any_other_but_not_another_perfect_fit() {
     let (_, tibia) = knee();
@@ -298,15 +352,16 @@ properties! {
         let neighbours = [pose(0.0, near, 0.0)];
         let tibia = pose(0.0, 0.0, 0.0);
         let context = ChoiceContext { counterpart: Some(Counterpart::Tibia(tibia)), neighbours: &neighbours };
-        let Choice { index, reason, open } = choose(&candidates, &context).expect("two");
+        let Choice { index, reason, open, no_knee_deg } = choose(&candidates, &context).expect("two");
         let (chosen, other) = (index, 1 - index);
         let px = |k: usize| candidates[k].residual_px;
         let by_tilt = tilts[other].abs() - tilts[chosen].abs();
         let by_turn = (tilts[other] - near).abs() - (tilts[chosen] - near).abs();
         let ratio = px(other) / px(chosen);
-        prop_assert_eq!(open.is_some(), !reason.is_decided());
+        prop_assert_eq!((open.is_some(), no_knee_deg), (!reason.is_decided(), None));
         match reason {
-            Reason::Only | Reason::Film { .. } => prop_assert!(false),
+            // Nothing is turned by more than a knee.
+            Reason::Only | Reason::Film { .. } | Reason::Knee { .. } => prop_assert!(false),
             Reason::Residual { chosen_px, other_px } => {
                 prop_assert!(ratio >= DECISIVE_RATIO);
                 prop_assert_eq!([chosen_px, other_px], [px(chosen), px(other)]);

@@ -126,6 +126,7 @@ fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_lea
             index: 0,
             reason,
             open,
+            no_knee_deg: None,
         };
         judge(&all, &choice, &Limits::USUAL).map(|verdict| match verdict {
             Verdict::Doubtful(Doubt::Open {
@@ -150,8 +151,21 @@ fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_lea
         index: 3,
         reason: super::super::choice::Reason::Only,
         open: None,
+        no_knee_deg: None,
     };
     assert_eq!(judge(&[candidate(0.1, 1.0)], &none, &Limits::USUAL), None);
+    let no_knee = Choice {
+        index: 0,
+        no_knee_deg: Some(79.4),
+        ..none
+    };
+    let mut all = [candidate(0.1, 1.0)];
+    known(&mut all[0]);
+    let verdict = judge(&all, &no_knee, &Limits::USUAL).expect("one");
+    assert!(
+        verdict.to_string().contains("79\u{b0} from the other"),
+        "{verdict}"
+    );
 }
 
 #[test]

@@ -14,6 +14,8 @@ pub struct Reasons {
     pub only: usize,
     /// The residual, or the unmatched pixels.
     pub residual: usize,
+    /// The other component, with which another pose makes no knee.
+    pub knee: usize,
     /// The coronal tilt against the other component.
     pub tilt: usize,
     /// The frames before and after.
@@ -33,6 +35,7 @@ impl Reasons {
             let count = match decision.choice.reason {
                 Reason::Only => &mut counts.only,
                 Reason::Residual { .. } => &mut counts.residual,
+                Reason::Knee { .. } => &mut counts.knee,
                 Reason::Tilt { .. } => &mut counts.tilt,
                 Reason::Turn { .. } | Reason::Film { .. } => &mut counts.continuity,
                 Reason::Undecided { .. } => &mut counts.undecided,
@@ -48,6 +51,7 @@ impl fmt::Display for Reasons {
         let words = [
             ("the only pose", self.only),
             ("residual", self.residual),
+            ("the other component", self.knee),
             ("coronal tilt", self.tilt),
             ("continuity", self.continuity),
             ("undecided", self.undecided),

@@ -202,7 +202,7 @@ properties! {
         prop_assert!((cost(&taken) - least).abs() < 1e-9);
         let anchored = film.iter().any(|frame| frame.len() == 1);
         for (at, choice) in choices.iter().enumerate() {
-            let Some(Choice { index, reason, open }) = choice else { continue };
+            let Some(Choice { index, reason, open, .. }) = choice else { continue };
             let other = ways.iter().filter(|(way, _)| way[at] != *index).map(|(_, cost)| *cost);
             let saved = other.fold(f64::INFINITY, f64::min) - least;
             if film[at].len() == 1 {
