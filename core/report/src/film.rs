@@ -249,6 +249,14 @@ impl JointFilm {
         }
     }
 
+    /// What a reader has to know of the film besides its numbers: translations that the origins of the files make, poses without verdicts or
+    /// accepted ones, and [`Self::remarks`]. It stands in the heading of its table.
+    #[must_use]
+    pub fn told(&self) -> Vec<String> {
+        let told = self.origins_told().into_iter().chain(self.verdicts_told());
+        told.chain(self.remarks.iter().cloned()).collect()
+    }
+
     /// What a reader has to know of the verdicts on the poses: that there are none, and what a person accepted. Sentences.
     #[must_use]
     pub fn verdicts_told(&self) -> Vec<String> {

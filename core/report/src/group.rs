@@ -14,6 +14,19 @@ pub struct Knee {
     pub films: Vec<FilmLevels>,
 }
 
+impl Knee {
+    /// What is wrong with films of one knee, a sentence without its full stop: they are of both sides of a body.
+    #[must_use]
+    pub fn fault(&self) -> Option<String> {
+        let (first, others) = self.films.split_first()?;
+        let other = others.iter().find(|film| film.side != first.side)?;
+        Some(format!(
+            "the knee {} would be a {} one in the film {} and a {} one in {}",
+            self.name, first.side, first.name, other.side, other.name
+        ))
+    }
+}
+
 /// Knees that are published together.
 #[derive(Clone, Debug)]
 pub struct Group {
@@ -38,6 +51,20 @@ impl Group {
     /// The films, knee by knee.
     pub fn films(&self) -> impl Iterator<Item = &FilmLevels> {
         self.knees.iter().flat_map(|knee| &knee.films)
+    }
+
+    /// What a reader has to know of its films, each sentence with the knee and the film that it is of.
+    #[must_use]
+    pub fn told(&self) -> Vec<String> {
+        let of_film = |knee: &str, film: &FilmLevels| {
+            let place = format!("knee {knee}, {}", film.name);
+            let told = film.told.iter();
+            told.map(|told| format!("{place}: {told}"))
+                .collect::<Vec<_>>()
+        };
+        let knees = self.knees.iter();
+        let films = knees.flat_map(|knee| knee.films.iter().map(|film| (knee.name.as_str(), film)));
+        films.flat_map(|(knee, film)| of_film(knee, film)).collect()
     }
 
     /// The flexions that any film passes within a phase, degrees.

@@ -1,5 +1,6 @@
 //! A film's numbers at steps of flexion.
 
+use fluoropose::Side;
 use fluoropose::joint::numbers::NUMBERS;
 
 use crate::film::{JointFilm, Step};
@@ -18,6 +19,10 @@ pub struct Level {
 pub struct FilmLevels {
     /// What the study is called.
     pub name: String,
+    /// Which knee.
+    pub side: Side,
+    /// What a reader has to know of it, sentences.
+    pub told: Vec<String>,
     /// Step by step.
     pub levels: Vec<Level>,
 }
@@ -28,6 +33,8 @@ impl FilmLevels {
     pub fn of(film: &JointFilm) -> Self {
         Self {
             name: film.name.clone(),
+            side: film.side,
+            told: film.told(),
             levels: by_flexion(film),
         }
     }

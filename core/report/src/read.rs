@@ -144,7 +144,8 @@ pub fn table(text: &str) -> Result<Table, ReadError> {
     rows(names, numbers, &[','])
 }
 
-/// The film of a joint table: what [`crate::write::table`] wrote of it, without the tray's outline, remarks, and what errors are shared.
+/// The film of a joint table: what [`crate::write::table`] wrote of it, without the tray's outline and what errors are shared. What a person accepted
+/// is among its remarks.
 ///
 /// # Errors
 /// [`ReadError`] names the line, or says what is missing.
@@ -197,7 +198,21 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
             beside: None,
         });
     }
+    film.remarks = remarks(text, &film.told());
     Ok(film)
+}
+
+/// What a heading says of a film behind the lines that each has, but for what its numbers say themselves.
+fn remarks(text: &str, known: &[String]) -> Vec<String> {
+    let heading = text.lines().map_while(|line| line.strip_prefix("# "));
+    let behind = heading
+        .skip_while(|line| !line.starts_with("filter: "))
+        .skip(1);
+    let is_known = |line: &str| known.iter().any(|known| in_heading(known) == line);
+    behind
+        .filter(|line| !is_known(line))
+        .map(str::to_owned)
+        .collect()
 }
 
 /// The text at the end of a row.

@@ -44,9 +44,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
         "checked: 1 where a person has checked both poses as they are".to_owned(),
         filter,
     ];
-    lines.extend(film.origins_told());
-    lines.extend(film.verdicts_told().iter().map(|told| in_heading(told)));
-    lines.extend(film.remarks.iter().map(|remark| in_heading(remark)));
+    lines.extend(film.told().iter().map(|told| in_heading(told)));
     lines
 }
 
@@ -132,12 +130,33 @@ pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
     Ok(out)
 }
 
+/// That of a film, or of several in whose order rows stand.
+fn heading_of(films: &[&JointFilm]) -> Vec<String> {
+    if let [film] = films {
+        return heading(film);
+    }
+    let mut lines = vec![
+        format!(
+            "fluoropose {}, joint table version 1",
+            env!("CARGO_PKG_VERSION")
+        ),
+        format!("field_*, gs_*: {ORIGINS}"),
+    ];
+    for (row, film) in films.iter().enumerate() {
+        let (row, name) = (row + 1, in_heading(&film.name));
+        lines.push(format!("row {row}: study: {name}; knee: {}", film.side));
+        let told = film.told().into_iter();
+        lines.extend(told.map(|told| in_heading(&format!("row {row}: {told}"))));
+    }
+    lines
+}
+
 /// One number over the film at 0 to 100 percent, for each film a row of 101: what statistical parametric mapping takes.
 #[must_use]
 pub fn matrix(films: &[&JointFilm], number: usize) -> String {
     let mut out = String::new();
     let name = COLUMNS.get(number).map_or("", |column| column.name);
-    for line in films.first().map(|film| heading(film)).unwrap_or_default() {
+    for line in heading_of(films) {
         let _ = writeln!(out, "# {line}");
     }
     let _ = writeln!(
@@ -161,12 +180,16 @@ pub fn group_table(group: &Group) -> String {
     let name = in_heading(&group.name);
     let _ = writeln!(
         out,
-        "# group: {name}; mean and standard deviation over knees, of each knee the mean of its films, of each film that of its monotonic phases; without doubtful frames, nothing extrapolated, NaN where fewer than two knees have a number"
+        "# group: {name}; mean and standard deviation over knees, of each knee the mean of its films, of each film that of its monotonic phases; without doubtful frames, nothing extrapolated; of one knee there is no standard deviation, and its mean is its own"
     );
     for knee in group.knees() {
         let films: Vec<&str> = knee.films.iter().map(|film| film.name.as_str()).collect();
         let line = format!("# knee {}: {}", knee.name, films.join(", "));
         let _ = writeln!(out, "{}", in_heading(&line));
+    }
+    let _ = writeln!(out, "# field_*, gs_*: {ORIGINS}");
+    for told in group.told() {
+        let _ = writeln!(out, "# {}", in_heading(&told));
     }
     let mut names = vec!["flexion_step_deg".to_owned(), "n".to_owned()];
     names.extend(COLUMNS.iter().flat_map(|column| {

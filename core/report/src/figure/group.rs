@@ -102,6 +102,14 @@ impl Course<'_> {
                 .map(|[x, y]| plot.place(x, y))
                 .collect();
             lines(drawing, &points, stroke);
+            // A single step has no line.
+            let known = |at: Option<&[f64; 2]>| at.is_some_and(|[_, y]| y.is_finite());
+            for (at, &point) in points.iter().enumerate() {
+                let before = at.checked_sub(1).and_then(|before| points.get(before));
+                if known(Some(&point)) && !known(before) && !known(points.get(at + 1)) {
+                    ink.mark(drawing, point, 2.0, &self.group.knees()[knee].name);
+                }
+            }
         }
         drawing.close();
     }

@@ -50,11 +50,15 @@ fn what_a_reader_has_to_know_of_the_knee_stands_above_its_table() {
         text.contains("\n# Side: it is made for a left knee.\n"),
         "{text}"
     );
+    let back = read::film(&text).unwrap();
     assert_eq!(
-        read::film(&text).unwrap().rows.len(),
+        back.rows.len(),
         film.rows.len(),
         "the heading is none of its rows"
     );
+    assert_eq!(back.remarks, film.remarks);
+    // Once, however often it is read and written.
+    assert_eq!(write::table(&back), text);
 }
 
 #[test]

@@ -68,6 +68,9 @@ pub fn run(args: Args) -> Result<u8> {
         check_order(one.entry, &args.results)?;
     }
     let groups = groups(&done, &args.results)?;
+    if let Some(fault) = groups.iter().flat_map(Group::knees).find_map(Knee::fault) {
+        bail!("{fault}: name each knee in the list");
+    }
     let doubtful = doubtful(&done, &args.results)?;
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
@@ -76,6 +79,9 @@ pub fn run(args: Args) -> Result<u8> {
     write_text(&args.out.join("doubtful.csv"), &doubtful)?;
     for group in &groups {
         println!("{}: {}", group.name, counted(group.knees().len(), "knee"));
+        for told in group.told() {
+            println!("{}: {told}", group.name);
+        }
     }
     match doubtful.lines().count() - 1 {
         1 => println!("1 frame is not good"),

@@ -1,8 +1,9 @@
 //! Knees that are published together, from the tables of their reports.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose_report::levels::FilmLevels;
 use fluoropose_report::{Group, JointFilm, Knee, counted, group_figure, read, write};
 
@@ -12,6 +13,9 @@ use crate::files::{name_of, read_text, write_figure, write_text};
 pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
     let knees = knees(tables)?;
     let group = group(&knees, name_of(out));
+    if let Some(fault) = group.knees().iter().find_map(Knee::fault) {
+        bail!("{fault}: name each knee's own tables");
+    }
     make_folder(out)?;
     write_text(&out.join("group.csv"), &write::group_table(&group))?;
     write_figure(out, "figure", &group_figure(&group))?;
@@ -25,6 +29,9 @@ pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
             println!("{}: {told}", film.name);
         }
     }
+    for told in group.told() {
+        println!("{told}");
+    }
     println!("{}", out.join("figure.svg").display());
     Ok(())
 }
@@ -32,10 +39,16 @@ pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
 /// Of words `KNEE=FILE`; tables of one knee stand together, in the order in which knees are first named.
 fn knees(tables: &[String]) -> Result<Vec<(&str, Vec<JointFilm>)>> {
     let mut knees: Vec<(&str, Vec<JointFilm>)> = Vec::new();
+    let mut known = BTreeSet::new();
     for words in tables {
         let (knee, file) = words.split_once('=').with_context(|| {
             format!("{words} does not say whose knee it is: write KNEE={words}")
         })?;
+        let place = Path::new(file).canonicalize();
+        ensure!(
+            place.map_or(true, |place| known.insert(place)),
+            "{file} is named twice: a film counts once"
+        );
         let film =
             read::film(&read_text(Path::new(file))?).with_context(|| format!("in {file}"))?;
         match knees.iter_mut().find(|(known, _)| *known == knee) {

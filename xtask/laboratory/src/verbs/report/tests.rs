@@ -247,8 +247,12 @@ fn read_by_another_program(out: &Path) {
 
 /// The film taken as two knees: what both have is the mean, without any spread.
 fn check_group(folder: &Path, column: impl Fn(&str) -> Vec<f64>) {
-    let table = folder.join("out/joint.csv");
-    let named = |knee: &str| format!("{knee}={}", table.display());
+    let tables = ["joint.csv", "second.csv", "third.csv"].map(|name| folder.join("out").join(name));
+    let text = std::fs::read_to_string(&tables[0]).unwrap();
+    tables[1..]
+        .iter()
+        .for_each(|table| std::fs::write(table, &text).unwrap());
+    let named = |knee: &str, table: usize| format!("{knee}={}", tables[table].display());
     let args = |group: Vec<String>| Args {
         study: None,
         group,
@@ -258,7 +262,7 @@ fn check_group(folder: &Path, column: impl Fn(&str) -> Vec<f64>) {
         cutoff: None,
         overlay: false,
     };
-    run(args(vec![named("p1"), named("p2"), named("p2")])).unwrap();
+    run(args(vec![named("p1", 0), named("p2", 1), named("p2", 2)])).unwrap();
     let text = std::fs::read_to_string(folder.join("group/group.csv")).unwrap();
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     let [names, row] = rows[..] else {
@@ -283,7 +287,17 @@ fn check_group(folder: &Path, column: impl Fn(&str) -> Vec<f64>) {
         cycle.lines().filter(|line| !line.starts_with('#')).count(),
         3
     );
-    let unnamed = run(args(vec![table.display().to_string()])).unwrap_err();
+    let refused = |tables: Vec<String>| format!("{:#}", run(args(tables)).unwrap_err());
+    assert!(refused(vec![named("p1", 0), named("p2", 0)]).contains("is named twice"));
+    let other = std::fs::read_to_string(&tables[0]).unwrap();
+    let other = other.replace("; knee: left;", "; knee: right;");
+    std::fs::write(&tables[1], other).unwrap();
+    let two_sides = refused(vec![named("p1", 0), named("p1", 1)]);
+    assert!(
+        two_sides.contains("a left one in the film pivot and a right one"),
+        "{two_sides}"
+    );
+    let unnamed = run(args(vec![tables[0].display().to_string()])).unwrap_err();
     assert!(unnamed.to_string().contains("whose knee"));
 }
 
