@@ -163,7 +163,8 @@ fn covered(behind: &Covered, map: &[[f32; 2]], width: usize, height: usize) -> V
 
 /// The camera that took a bead plate: pixel pitch and its standard deviation (mm), principal point x and y from the
 /// frame's middle (mm) and their standard deviations, 1 where the picture tells the principal point, tilt of the plate
-/// (degrees), residual (px), beads used, 1 where the picture is distorted. Distances in mm: between beads, source to detector, source to plate.
+/// (degrees), residual (px), beads used, 1 where the picture is distorted, and
+/// 1 where the plate is tilted too far for a correction of distortion. Distances in mm: between beads, source to detector, source to plate.
 ///
 /// # Errors
 /// The core's sentence for impossible lengths or too few beads.
@@ -195,6 +196,7 @@ pub fn plate_camera(
         found.residual_px,
         found.used as f64,
         f64::from(u8::from(found.is_distorted())),
+        f64::from(u8::from(found.is_tilted())),
     ])
 }
 

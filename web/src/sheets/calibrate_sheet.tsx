@@ -197,11 +197,16 @@ function marksOf({ marks }: Measuring): readonly FramePoint[] | null {
 
 type AppServices = ReturnType<typeof useApp>;
 
+/** Places in what `plateCamera` gives: the tilt, degrees, and whether it is too much for a correction. */
+const TILT = 7;
+const IS_TILTED = 11;
+
 function ofPlate({ calibrator, services }: AppServices, state: State, { grid }: Measuring, { known, toDetector, toObject }: Lengths): CameraFound {
   if (!grid) throw new Error(said.needs);
   const { present: doc } = state.history;
   const beads = calibrator.beadsForCamera(grid, doc);
-  const numbers = services.studio.plateCamera(beads, known, toDetector, toObject, grid);
+  const camera = (places: Float64Array<ArrayBuffer>) => services.studio.plateCamera(places, known, toDetector, toObject, grid);
+  const numbers = camera(beads);
   const [pitch = NaN, pitchDeviation = 0, x = 0, y = 0, dx = 0, dy = 0, isMeasured = 0, tilt = 0, residual = 0, used = 0, isDistorted = 0] = numbers;
   const sentences = [
     `${said.pitch(plusMinus(pitch, pitchDeviation, 5))}; ${
@@ -211,6 +216,9 @@ function ofPlate({ calibrator, services }: AppServices, state: State, { grid }: 
     said.distancesMatter,
   ];
   if (!doc.distortion && isDistorted) sentences.push(said.distortedFirst(residual.toFixed(2)));
+  // Straightened, a tilted plate looks level.
+  const asTaken = beads === grid.beads ? null : camera(grid.beads);
+  if (asTaken?.[IS_TILTED]) sentences.push(said.tiltedFirst(asTaken[TILT]!.toFixed(0)));
   return { sentences, pitch, offset: isMeasured ? [x, y] : [0, 0] };
 }
 

@@ -49,6 +49,7 @@ export const calibrateSheet = {
   pointOfRuler: 'The principal point is taken to be the frame’s middle: a ruler does not show it.',
   residual: (residual: string, beads: number) => `${beads} beads lie ${residual} px (RMS) from where this camera sees them.`,
   distortedFirst: (before: string) => `The picture is distorted by ${before} px (RMS): correct the distortion first, or the pitch is that of the middle at best.`,
+  tiltedFirst: (tilt: string) => `As it was taken the plate is tilted by ${tilt}°, which the correction takes for distortion: this pitch is off by a part of a percent or more. Take the plate level with the detector, or leave the correction out where the picture is not distorted.`,
   distancesMatter: 'An error of either distance goes into the pitch in proportion.',
   needs: 'Type the lengths to see the camera.',
   use: 'Use as calibration',

@@ -122,7 +122,7 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Evaluate(args) => verbs::evaluate::run(args),
         Verb::Outline(args) => verbs::outline::run(args),
         Verb::Bound(args) => verbs::bound::run(args),
-        Verb::Calibrate(args) => verbs::calibrate::run(args),
+        Verb::Calibrate(args) => return verbs::calibrate::run(args),
         Verb::Undistort(args) => verbs::undistort::run(args),
         Verb::Compare(args) => verbs::compare::run(args),
         Verb::Disguise(args) => verbs::disguise::run(*args),

@@ -96,6 +96,16 @@ impl FromStr for Pair {
     }
 }
 
+/// Reads a number above 0, as frames a second.
+///
+/// # Errors
+/// Says what it has to be.
+pub fn above_0(text: &str) -> Result<f64> {
+    let number = text.parse().ok();
+    let number = number.filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.with_context(|| format!("'{text}' is no number above 0"))
+}
+
 /// Reads the path of a study file, or of the folder that holds it as `study.toml`.
 pub fn study_files() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().map(|path| match path.is_dir() {
@@ -151,6 +161,14 @@ impl FromStr for Seeds {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rates_are_above_0() {
+        assert_eq!(above_0("7.5").ok(), Some(7.5));
+        for wrong in ["0", "-1", "nan", "inf", "7,5", ""] {
+            assert!(above_0(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn seeds_are_one_or_all_from_one_to_another() {

@@ -117,3 +117,46 @@ fn impossible_lengths_and_lines_of_beads_are_refused() {
     let twice: Vec<Bead> = line.iter().chain(&line).copied().collect();
     assert!(camera(&twice, MEASURED, (1024, 1024)).is_err());
 }
+
+/// A pincushion of so many pixels at a corner of the frame.
+fn distorted(beads: Vec<Bead>, corner_px: f64) -> Vec<Bead> {
+    let bent = |bead: Bead| {
+        let off = bead.at.map(|at| (at - 512.0) / 512.0);
+        let grown = corner_px * (off[0] * off[0] + off[1] * off[1]) / 2.0 / 2.0_f64.sqrt();
+        let at = [0, 1].map(|k| bead.at[k] + grown * off[k]);
+        Bead::new(at, bead.index)
+    };
+    beads.into_iter().map(bent).collect()
+}
+
+#[test]
+fn a_tilted_plate_is_told_from_a_distorted_picture_of_a_level_one() {
+    let of = |beads: Vec<Bead>| camera(&beads, MEASURED, (1024, 1024)).expect("fits");
+    for corner_px in [0.0, 8.0, 25.0] {
+        for tilt in [0.0, 2.0] {
+            let level = of(distorted(beads([tilt, 0.0], [4.0, -2.0], 0.05), corner_px));
+            assert!(!level.is_tilted(), "{corner_px} px: {level:?}");
+            assert_eq!(level.is_distorted(), corner_px > 0.0, "{level:?}");
+        }
+        let tilted = of(distorted(beads([10.0, 0.0], [4.0, -2.0], 0.05), corner_px));
+        assert!(tilted.is_tilted(), "{corner_px} px: {tilted:?}");
+    }
+}
+
+/// Why it has to be told: the correction takes the tilt with the distortion, and what is left looks like a level plate's picture.
+#[test]
+fn the_correction_of_a_tilted_plate_makes_a_wrong_pitch_that_looks_exact() {
+    let mut beads = beads([10.0, 0.0], [0.0, 0.0], 0.02);
+    let taken = camera(&beads, MEASURED, (1024, 1024)).expect("fits");
+    let corrected = crate::correction::fit(&mut beads, (1024, 1024)).expect("fits");
+    for bead in &mut beads {
+        *bead = Bead::new(corrected.distortion.undistorted(bead.at), bead.index);
+    }
+    let found = camera(&beads, MEASURED, (1024, 1024)).expect("fits");
+    assert!(
+        (found.pitch_mm - 0.35).abs() > 10.0 * found.pitch_deviation_mm,
+        "{found:?}"
+    );
+    assert!(!found.is_distorted() && !found.is_tilted(), "{found:?}");
+    assert!(taken.is_tilted() && (taken.pitch_mm - 0.35).abs() < 1e-3);
+}

@@ -15,6 +15,7 @@ use std::time::Duration;
 use anyhow::Result;
 use fluoropose_report::counted;
 
+use crate::options::above_0;
 use crate::signals::say_when_ended;
 use claim::Claim;
 use folders::Folders;
@@ -69,10 +70,10 @@ pub struct Args {
     #[arg(long, value_enum)]
     only: Option<Only>,
     /// Frames a second, where not the study states them
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = above_0)]
     fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = above_0)]
     cutoff: Option<f64>,
     /// Fill gaps of at most so many frames between followed ones
     #[arg(long, value_name = "FRAMES", default_value_t = 0)]

@@ -12,6 +12,7 @@ use fluoropose_distortion::lattice::Bead;
 use fluoropose_distortion::plate::{Distances, PlateCamera, camera};
 use fluoropose_report::plus_minus;
 
+use crate::exit;
 use crate::files::{name_of, read, write_distortion, write_text};
 
 /// Options of `calibrate`.
@@ -19,7 +20,9 @@ use crate::files::{name_of, read, write_distortion, write_text};
 #[command(
     after_help = "The grid is a flat plate of round beads or holes in a square pattern. With --distortion a polynomial correction is fitted \
 and written (its order, 3 to 5, by cross-validation); the camera is then that of the straightened picture, so frames must go through \
-`cargo xtask undistort` before they are traced. With the spacing and both distances the calibration is written to --out.\n\n\
+`cargo xtask undistort` before they are traced; the plate has to be level with the detector for that (to 4 degrees), because its perspective would be taken for \
+distortion. Without --distortion a tilted plate shows the principal point too. With the spacing and both distances the calibration is written to --out. The command \
+exits with 3 where the calibration is doubtful: of a distorted picture that was not corrected, or of a corrected one of a tilted plate.\n\n\
 Example:\n  cargo xtask calibrate --grid plate.dcm --distortion plate.json --spacing 10 --source-to-detector 1200 --source-to-plate 1150 \
 --out calibration.txt"
 )]
@@ -53,15 +56,16 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-/// Runs the verb.
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
 /// For a picture without a grid, impossible lengths, and files that cannot be read or written.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let name = name_of(&args.grid);
     let picture = FrameFile::open(read(&args.grid)?, &name)?.frame(args.frame.saturating_sub(1))?;
     let size = (picture.width as usize, picture.height as usize);
     let mut beads = beads_of(&picture, args.bright, args.radius).with_context(|| name.clone())?;
+    let as_taken = beads.clone();
     if let Some(path) = &args.distortion {
         let corrected = fit(&mut beads, size).with_context(|| name.clone())?;
         describe_distortion(&corrected);
@@ -82,12 +86,16 @@ pub fn run(args: Args) -> Result<()> {
                 source_to_detector_mm,
                 source_to_plate_mm,
             };
-            let found = camera(&beads, measured, size).with_context(|| name)?;
+            let see = |beads: &[Bead]| camera(beads, measured, size).with_context(|| name.clone());
+            let found = see(&beads)?;
             describe_camera(&found);
-            tell_distortion(&found);
-            write_camera(out, &found, measured)
+            write_camera(out, &found, measured)?;
+            let as_taken = args.distortion.is_some().then(|| see(&as_taken));
+            let doubt = doubt(&found, as_taken.transpose()?.as_ref());
+            doubt.iter().for_each(|doubt| eprintln!("{doubt}"));
+            Ok(doubt.map_or(0, |_| exit::DOUBTFUL))
         }
-        _ => Ok(()),
+        _ => Ok(0),
     }
 }
 
@@ -156,13 +164,24 @@ fn describe_camera(found: &PlateCamera) {
     }
 }
 
-/// What the camera of a distorted picture is worth, on standard error: outputs stay what programs read.
-fn tell_distortion(found: &PlateCamera) {
-    if found.is_distorted() {
-        eprintln!(
-            "the picture is distorted by {:.2} px (RMS): correct it first (--distortion), or the pitch is that of the middle at best",
-            found.residual_px
-        );
+/// What is doubtful of a camera; `as_taken` is that of the beads before they were straightened.
+fn doubt(found: &PlateCamera, as_taken: Option<&PlateCamera>) -> Option<String> {
+    match as_taken {
+        None => found.is_distorted().then(|| {
+            format!(
+                "the picture is distorted by {:.2} px (RMS): correct it first (--distortion), or the pitch is that of the middle at best",
+                found.residual_px
+            )
+        }),
+        // Straightened, a tilted plate looks level.
+        Some(as_taken) => as_taken.is_tilted().then(|| {
+            format!(
+                "the plate is tilted by {:.0} degrees, which the correction takes for distortion: the pitch is off by {:.1} percent where the picture is not distorted. \
+                 Take the plate level with the detector, or leave --distortion out where the picture is not distorted",
+                as_taken.tilt_deg,
+                100.0 * (found.pitch_mm / as_taken.pitch_mm - 1.0).abs()
+            )
+        }),
     }
 }
 

@@ -15,7 +15,7 @@ use fluoropose_report::{Facts, JointFilm, ORIGINS, figure, html, write};
 use crate::exit;
 use crate::files::{Study, stated_frames_per_s, write_figure, write_text};
 use crate::finding::say_axes;
-use crate::options::{of_body, study_files};
+use crate::options::{above_0, of_body, study_files};
 use knee::{Filtering, Knee};
 use out::{make_folder, write_cycles};
 use sources::Sources;
@@ -49,10 +49,10 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Frames a second, of the frames at hand, in place of what the study or its DICOM frames state
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = above_0)]
     pub fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", value_parser = above_0)]
     pub cutoff: Option<f64>,
     /// Also the frames with outlines and curves, as pictures and as a film; the study has to name its frames
     #[arg(long, conflicts_with = "group")]
