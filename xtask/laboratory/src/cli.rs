@@ -116,7 +116,7 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Kinematics(args) => return verbs::kinematics::run(args),
         Verb::Report(args) => return verbs::report::run(args),
         Verb::Library(args) => return verbs::library::run(args),
-        Verb::Biplane(args) => verbs::biplane::run(args),
+        Verb::Biplane(args) => return verbs::biplane::run(args),
         Verb::Synthetic(args) => verbs::synthetic::run(*args),
         Verb::Identify(args) => verbs::identify::run(args),
         Verb::Evaluate(args) => verbs::evaluate::run(args),

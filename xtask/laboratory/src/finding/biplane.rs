@@ -1,7 +1,68 @@
 //! Two cameras that see one implant at once.
 
+use std::fmt;
+
+use anyhow::Result;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose::finder::choice::DECISIVE_RATIO;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::CameraView;
+
+use super::finder::Finder;
+
+/// A camera that fits by so little better alone, pixels, sees the same: no calibration is better.
+const SAME_PX: f64 = 0.1;
+
+/// Two cameras that see the implant at two poses. In words it is a sentence without its full stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contradiction {
+    /// What a camera's mask leaves of what it meets at the pose for both, pixels.
+    pub together_px: f64,
+    /// What it leaves at the nearest pose of its own, pixels.
+    pub alone_px: f64,
+}
+
+impl Contradiction {
+    /// Whether cameras contradict each other at a pose that was brought onto the masks of all: the worst of them, where one does.
+    ///
+    /// # Errors
+    /// Where the model cannot be drawn.
+    pub fn at(
+        finder: &mut Finder<'_>,
+        views: &[CameraView<'_>],
+        pose: &Pose,
+    ) -> Result<Option<Self>> {
+        let mut worst: Option<Self> = None;
+        for view in views {
+            let view = std::slice::from_ref(view);
+            let together_px = finder.fit_views(view, pose)?.residual_px;
+            let Some((own, _)) = finder.refine_views(view, &[*pose])?.into_iter().next() else {
+                continue;
+            };
+            let alone_px = finder.fit_views(view, &own.pose)?.residual_px;
+            let one = Self {
+                together_px,
+                alone_px,
+            };
+            if together_px > (alone_px + SAME_PX).max(DECISIVE_RATIO * alone_px)
+                && worst.is_none_or(|worst| together_px > worst.together_px)
+            {
+                worst = Some(one);
+            }
+        }
+        Ok(worst)
+    }
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "a camera's mask lies {:.2} px off where both are met, and {:.2} px at a pose of its own: do both show the same moment, and is each calibration its camera's?",
+            self.together_px, self.alone_px
+        )
+    }
+}
 
 /// Where a second camera stands whose axis meets that of the first at `distance` mm from both,
 /// turned by `angle` degrees about the vertical there: `second_from_first`.

@@ -14,7 +14,9 @@ use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, Refined, uncertainty};
+use fluoropose::refine::{
+    CameraView, Fit, ImageTarget, RefineOptions, Refined, fit_at, uncertainty,
+};
 use serde::Serialize;
 
 use crate::options::Shown;
@@ -210,6 +212,15 @@ impl<'l> Finder<'l> {
             Ok((found.refined, covariance))
         };
         found.iter().map(&mut sure).collect()
+    }
+
+    /// How well a pose fits what several cameras saw, of all together.
+    ///
+    /// # Errors
+    /// Where the model cannot be drawn there.
+    pub fn fit_views(&mut self, views: &[CameraView<'_>], pose: &Pose) -> Result<Fit> {
+        let mut memory = self.buffers.refine().borrow_for(&self.model, views);
+        Ok(fit_at(&self.model, views, pose, &mut memory)?)
     }
 
     /// Starts round a pose that is only roughly known; see [`nearby`].

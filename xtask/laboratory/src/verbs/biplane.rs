@@ -3,20 +3,18 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use fluoropose::finder::{Limits, Verdict, judge_fit};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, Refined};
 use fluoropose_report::plus_minus;
 
+use crate::exit;
 use crate::files::{read, read_calibration, read_model, write_poses};
-
+use crate::finding::biplane::{Contradiction, between};
 use crate::finding::{Finder, Method};
-
-use crate::finding::biplane::between;
-
 use crate::progress::progress;
-
 use crate::sequence::{Folders, Source};
 
 /// Options of `biplane`.
@@ -24,7 +22,8 @@ use crate::sequence::{Folders, Source};
 #[command(
     after_help = "Both calibrations are camera matrices with rotation and translation from one laboratory (MayaCam 2.0, XMALab). The library \
 gives first poses in the first camera; refinement then brings the model onto the masks of both at once. Poses are written in the first \
-camera's frame, looking along -z; plus-minus is one standard deviation.\n\n\
+camera's frame, looking along -z; plus-minus is one standard deviation. A pose is doubtful where the cameras contradict each other: each mask alone is met clearly better \
+elsewhere, as of other moments or exchanged calibrations. A pair that no pose explains has NaN. The command exits with 3 where a pose is doubtful or missing.\n\n\
 Example:\n  cargo xtask biplane --library femur.library --model femur.stl --calibration one.txt --masks one --second-calibration two.txt \
 --second-masks two --out femur.jts"
 )]
@@ -52,12 +51,12 @@ pub struct Args {
     out: PathBuf,
 }
 
-/// Runs the verb.
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
-/// For files that cannot be read or do not belong together, and a pair of masks without a pose:
+/// For files that cannot be read or do not belong together, and a pair of masks that leads to no first pose:
 /// nothing is written then.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let first_calibration = read_calibration(&args.calibration)?;
     let second_calibration = read_calibration(&args.second_calibration)?;
     let placement = between(&first_calibration, &second_calibration).context(
@@ -83,7 +82,7 @@ pub fn run(args: Args) -> Result<()> {
     let mut finder = Finder::open(&bytes, mesh, first.camera, Method::Refined)
         .with_context(|| args.library.display().to_string())?;
     let bar = progress(first.masks.len(), "pairs of masks");
-    let mut poses = Vec::new();
+    let (mut poses, mut all_good) = (Vec::new(), true);
     for ((path, one), (_, two)) in first.masks.iter().zip(&second.masks) {
         let (one, two) = (one.mask(), two.mask());
         let silhouette = Silhouette::from(&one);
@@ -96,12 +95,39 @@ pub fn run(args: Args) -> Result<()> {
         ];
         let found = pair(&mut finder, &silhouette, &views)
             .with_context(|| format!("no pose for {}", path.display()))?;
-        bar.suspend(|| describe(path, &found, &mesh.bounds().centre));
-        poses.push(Some(EulerPose::from(found.0.pose)));
+        let (word, because) = judge(&mut finder, &views, &found)?;
+        bar.suspend(|| {
+            describe(path, &found, &mesh.bounds().centre);
+            println!("  {word}: {because}");
+        });
+        all_good &= word == Verdict::Good.word();
+        let pose = (word != NONE).then(|| EulerPose::from(found.0.pose));
+        poses.push(pose);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    write_poses(&args.out, &poses)
+    write_poses(&args.out, &poses)?;
+    Ok(if all_good { 0 } else { exit::DOUBTFUL })
+}
+
+/// The word of a verdict that there is no pose.
+const NONE: &str = "none";
+
+/// How far a pose is to be trusted, in a word, and why.
+fn judge(
+    finder: &mut Finder<'_>,
+    views: &[CameraView<'_>],
+    (refined, covariance): &(Refined, Option<PoseCovariance>),
+) -> Result<(&'static str, String)> {
+    let fit = finder.fit_views(views, &refined.pose)?;
+    let verdict = judge_fit(&fit, covariance.is_some(), &Limits::USUAL);
+    let told = (verdict.word(), verdict.to_string());
+    if verdict.word() == NONE {
+        return Ok(told);
+    }
+    // Before parts without a counterpart, which it makes.
+    let contradiction = Contradiction::at(finder, views, &refined.pose)?;
+    Ok(contradiction.map_or(told, |why| ("doubtful", why.to_string())))
 }
 
 /// The pose that explains what both cameras saw.
