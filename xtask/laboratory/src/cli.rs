@@ -118,7 +118,7 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Library(args) => return verbs::library::run(args),
         Verb::Biplane(args) => return verbs::biplane::run(args),
         Verb::Synthetic(args) => verbs::synthetic::run(*args),
-        Verb::Identify(args) => verbs::identify::run(args),
+        Verb::Identify(args) => return verbs::identify::run(args),
         Verb::Evaluate(args) => verbs::evaluate::run(args),
         Verb::Outline(args) => verbs::outline::run(args),
         Verb::Bound(args) => verbs::bound::run(args),

@@ -85,7 +85,12 @@ pub fn write_distortion(path: &Path, corrected: &Corrected, name: &str) -> Resul
 /// # Errors
 /// Names the file and what is wrong with it.
 pub fn read_distortion(path: &Path) -> Result<Distortion> {
-    let cannot = || format!("in {}", path.display());
+    let cannot = || {
+        format!(
+            "{} is no correction of distortion, as `calibrate --distortion` writes it",
+            path.display()
+        )
+    };
     let stored: Stored = serde_json::from_str(&read_text(path)?).with_context(cannot)?;
     if stored.kind != KIND || stored.version != VERSION {
         bail!(

@@ -312,7 +312,7 @@ fn all_readable(folder: &Path, listed: Vec<Result<Listed>>) -> Result<Vec<Listed
             Err(error) if error.chain().any(|cause| cause.is::<std::io::Error>()) => {
                 return Err(error.context(folder.display().to_string()));
             }
-            Err(error) => faults.push(format!("{error:#}")),
+            Err(error) => faults.push(format!("{error:#}").trim_end_matches('.').to_owned()),
         }
     }
     if faults.is_empty() {

@@ -97,6 +97,19 @@ struct Table {
     rms: PoseLimits,
 }
 
+/// A pose as `--pose` takes it.
+fn words(pose: &Pose) -> String {
+    let EulerPose {
+        x_mm,
+        y_mm,
+        z_mm,
+        z_rot_deg,
+        x_rot_deg,
+        y_rot_deg,
+    } = EulerPose::from(*pose);
+    format!("{x_mm},{y_mm},{z_mm},{z_rot_deg},{x_rot_deg},{y_rot_deg}")
+}
+
 /// Runs the verb.
 ///
 /// # Errors
@@ -128,7 +141,7 @@ pub fn run(args: Args) -> Result<()> {
             let unknown = unknown.as_ref().map(|unknown| unknown.mask());
             outlines
                 .pose_limits(pose, &noise, unknown.as_ref())
-                .with_context(|| format!("at {:?}", EulerPose::from(*pose)))
+                .with_context(|| format!("at the pose {}", words(pose)))
         })
         .collect();
     let limits = limits?;
