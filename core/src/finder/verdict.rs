@@ -196,14 +196,12 @@ impl Doubt {
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Unmet { part, within_px } => {
-                let percent = Decimal::new(100.0 * part, 0);
-                write!(
-                    f,
-                    "{percent} % of the model's outline has no counterpart within {} px: is a part hidden or cut off, or is it another implant?",
-                    Decimal::brief(within_px)
-                )
-            }
+            Self::Unmet { part, within_px } => write!(
+                f,
+                "{} % of the model's outline has no counterpart within {} px: is a part hidden or cut off, or is it another implant?",
+                Decimal::new(100.0 * part, 0),
+                Decimal::brief(within_px)
+            ),
             Self::Apart { px, limit_px } => {
                 let [px, limit_px] = Decimal::told_apart(px, limit_px, 1);
                 write!(
@@ -226,10 +224,11 @@ impl fmt::Display for Doubt {
                 "the silhouette is {} pixels across: too few to tell a pose",
                 Decimal::new(px, 0)
             ),
-            Self::Unknown { known } => {
-                let percent = Decimal::new(100.0 * known, 0);
-                write!(f, "only {percent} % of the model's outline is known")
-            }
+            Self::Unknown { known } => write!(
+                f,
+                "only {} % of the model's outline is known",
+                Decimal::new(100.0 * known, 0)
+            ),
             Self::Undetermined => f.write_str("the outline does not determine the pose"),
             Self::Unusual { px, limit_px } => {
                 let [px, limit_px] = Decimal::told_apart(px, limit_px, 2);

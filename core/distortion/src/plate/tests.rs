@@ -120,13 +120,13 @@ fn impossible_lengths_and_lines_of_beads_are_refused() {
 
 /// A pincushion of so many pixels at a corner of the frame.
 fn distorted(beads: Vec<Bead>, corner_px: f64) -> Vec<Bead> {
-    let bent = |bead: Bead| {
+    let moved = |bead: Bead| {
         let off = bead.at.map(|at| (at - 512.0) / 512.0);
         let grown = corner_px * (off[0] * off[0] + off[1] * off[1]) / 2.0 / 2.0_f64.sqrt();
         let at = [0, 1].map(|k| bead.at[k] + grown * off[k]);
         Bead::new(at, bead.index)
     };
-    beads.into_iter().map(bent).collect()
+    beads.into_iter().map(moved).collect()
 }
 
 #[test]
