@@ -220,7 +220,11 @@ impl Study {
         Ok(Self::with_remarks(path)?.0)
     }
 
-    fn with_remarks(path: &Path) -> Result<(Self, Vec<String>)> {
+    /// The same with what there is to say of its keys, a sentence each.
+    ///
+    /// # Errors
+    /// Those of [`Study::read`].
+    pub fn with_remarks(path: &Path) -> Result<(Self, Vec<String>)> {
         Self::of(&read_text(path)?, path).with_context(|| format!("in {}", path.display()))
     }
 

@@ -127,7 +127,7 @@ pub fn report(file: &Path, args: &Args) -> Result<Reported> {
 /// What is told of a study's joint that no knee has, by the poses in a folder; nothing where the study does not have one joint.
 pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
     let film = || -> Result<JointFilm> {
-        let study = Study::read(file)?;
+        let study = Study::read_quietly(file)?;
         let sources = Sources::read(file, &study, Some(poses))?;
         let knee = Knee::new(&study.name, of_body(study.known_side()?), &sources)?;
         knee.film(&sources, &Filtering::new(None, None)?)

@@ -88,7 +88,11 @@ pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn track(request: &Request) -> Result<Vec<Tracked>> {
-    let study = Study::read(&request.study)?;
+    let (study, of_keys) = Study::with_remarks(&request.study)?;
+    for remark in of_keys {
+        let file = request.study.display();
+        (request.listener)(Told::Remark(format!("in {file}: {remark}")));
+    }
     check_components(request, &study)?;
     let frames = study.frames_folder()?;
     study.check_files(Some(frames))?;
