@@ -62,7 +62,7 @@ pub fn origins_told(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) -> Op
         more => format!(" and {more} more"),
     };
     Some(format!(
-        "frame {first}{more}: a translation would be {mm:.0} mm, which no knee has: the origin of a model's file lies far off its component. Translations \
+        "frame {first}{more}: a translation is {mm:.0} mm, farther than components of a knee are apart: the origin of a model's file lies far off its component. Translations \
          (field_*, gs_*, anterior_posterior_mm and those beside it) are these origins'; rotations and lowest points are free of them"
     ))
 }
