@@ -87,7 +87,15 @@ pub fn run(args: Args) -> Result<u8> {
     let marked = told.iter().map(|told| format!("# doubtful: {told}\n"));
     let origins = [format!("# translations: {ORIGINS}\n")];
     let far_apart = far.iter().map(|far| format!("# origins: {far}\n"));
-    let marked: String = marked.chain(far_apart).chain(origins).collect();
+    let known = femur_part.model.as_ref().zip(femur_part.axes.as_ref());
+    let other =
+        known.and_then(|(model, axes)| OtherSide::than(side, model.as_model().mesh(), axes));
+    let of_side = other.iter().map(|other| format!("# side: {other}\n"));
+    let marked: String = marked
+        .chain(of_side)
+        .chain(far_apart)
+        .chain(origins)
+        .collect();
     write_text(&args.out, &(marked + &table))?;
     // Written before anything is said, so that it is there where nobody reads on.
     for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
@@ -95,9 +103,6 @@ pub fn run(args: Args) -> Result<u8> {
             say_axes(name, axes);
         }
     }
-    let known = femur_part.model.as_ref().zip(femur_part.axes.as_ref());
-    let other =
-        known.and_then(|(model, axes)| OtherSide::than(side, model.as_model().mesh(), axes));
     if let Some(other) = other {
         eprintln!("{other}");
     }
