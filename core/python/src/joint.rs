@@ -109,6 +109,8 @@ fn body(py: Python<'_>, name: &str, (model, poses, uncertain, axes): Component<'
         name: name.to_owned(),
         stated_axes: axes,
         model: (*model).clone(),
+        // Said where the model was read.
+        of_file: Vec::new(),
         poses: poses_of(&poses),
         uncertain: known,
     }
