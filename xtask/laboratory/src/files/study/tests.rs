@@ -273,7 +273,13 @@ fn what_is_not_known_is_told_and_left_out() {
 
 #[test]
 fn a_file_that_is_not_there_is_told_with_its_key() {
-    let study = read(&format!("{STUDY}{FEMUR}")).unwrap();
+    // Names that nobody else has beside it.
+    let own = |name: &str| format!("fluoropose-{}-{name}", std::process::id());
+    let text = format!("{STUDY}{FEMUR}");
+    let text = ["c.txt", "f.stl"]
+        .iter()
+        .fold(text, |text, name| text.replace(name, &own(name)));
+    let study = read(&text).unwrap();
     let told = || format!("{:#}", study.check_files(None).unwrap_err());
     assert!(
         told().contains(".toml: line 2: calibration: there is no "),
