@@ -69,6 +69,7 @@ pub(crate) fn joint<'py>(
         accepted: BTreeMap::new(),
         checked: BTreeSet::new(),
         film: Vec::new(),
+        changed: Vec::new(),
         whose: "those of a Python program".to_owned(),
         inputs: Vec::new(),
     };

@@ -3,6 +3,7 @@
 mod calibration;
 mod distortion;
 mod film;
+mod found_with;
 mod frames;
 mod listing;
 mod mask;
@@ -22,6 +23,7 @@ pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use fluoropose_decode::name_order;
+pub use found_with::FoundWith;
 pub use frames::{Frames, grey, reduced, stated_frames_per_s};
 pub use listing::{files_in, gaps_in};
 pub use mask::read_mask;

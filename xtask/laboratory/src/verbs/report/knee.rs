@@ -65,7 +65,7 @@ impl<'s> Knee<'s> {
     pub fn new(name: &str, side: Side, sources: &'s Sources) -> Result<Self> {
         let femur = axes(&sources.femur, Role::Femur)?;
         let tibia = axes(&sources.tibia, Role::Tibia)?;
-        let mut remarks = Vec::new();
+        let mut remarks = sources.changed.clone();
         let bodies = [(&sources.femur, Role::Femur), (&sources.tibia, Role::Tibia)];
         for (body, role) in bodies {
             if let Some(doubt) = shape_doubt(&body.model, role) {

@@ -11,8 +11,8 @@ use fluoropose_report::cell::plain;
 use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
-    Component, PoseRows, Role, State, States, Study, csv_fields, name_of, read, read_poses,
-    read_poses_of, read_text, sha256,
+    Component, FoundWith, PoseRows, Role, State, States, Study, csv_fields, name_of, read,
+    read_calibration, read_poses, read_poses_of, read_text, sha256,
 };
 
 /// A component with its poses.
@@ -56,6 +56,8 @@ pub struct Sources {
     pub checked: BTreeSet<usize>,
     /// The constants of the film by which poses were found, in words: a component and what it is seen with.
     pub film: Vec<(String, String)>,
+    /// What is another than the poses were found with, sentences.
+    pub changed: Vec<String>,
     /// Where the poses come from, in words.
     pub whose: String,
     /// Files and their digests.
@@ -106,6 +108,9 @@ impl Sources {
                 .collect();
         }
         let film = film_of(poses, &mut inputs)?;
+        let bodies = [&femur, &tibia].map(|body| (body.name.as_str(), body.model.as_model()));
+        let with = FoundWith::of(&read_calibration(&study.calibration)?, bodies.into_iter());
+        let changed = poses.map(|folder| with.changed_since(folder)).transpose()?;
         let whose = match poses {
             Some(folder) => format!("those of the folder {}", name_of(folder)),
             None => "the study's references".to_owned(),
@@ -118,6 +123,7 @@ impl Sources {
             accepted,
             checked,
             film,
+            changed: changed.unwrap_or_default(),
             whose,
             inputs,
         })

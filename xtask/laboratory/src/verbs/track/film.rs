@@ -25,7 +25,8 @@ use super::sides::Margins;
 use super::squares::chosen_square;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, Study, camera_of_frames, read, read_calibration, size_taken, write_poses, write_text,
+    Film, FoundWith, Study, camera_of_frames, read, read_calibration, size_taken, write_poses,
+    write_text,
 };
 use crate::finding::Stated;
 use crate::options::of_body;
@@ -141,9 +142,13 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         shapes.iter().enumerate().map(part).collect()
     };
     let begun = begun(&run, |polarity| parts_by((camera, 1), polarity))?;
-    in_squares(&run, &stated, begun, |side, polarity| {
+    let tracked = in_squares(&run, &stated, begun, |side, polarity| {
         Ok(parts_by((camera.reduced(side)?, side), polarity))
-    })
+    })?;
+    let names = study.components.iter().map(|one| one.name.as_str());
+    let found_with = names.zip(models.iter().map(OwnedModel::as_model));
+    FoundWith::of(&calibration, found_with).write(&request.out)?;
+    Ok(tracked)
 }
 
 /// Follows all components from their anchors in the squares that the film is well read in; `parts` are the components as they are seen in those.
