@@ -89,12 +89,7 @@ pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn track(request: &Request) -> Result<Vec<Tracked>> {
-    let (study, of_keys) = Study::with_remarks(&request.study)?;
-    for remark in of_keys {
-        let file = request.study.display();
-        (request.listener)(Told::Remark(format!("in {file}: {remark}")));
-    }
-    check_components(request, &study)?;
+    let study = read_study(request)?;
     let frames = study.frames_folder()?;
     study.check_files(Some(frames))?;
     let calibration = read_calibration(&study.calibration)?;
@@ -149,6 +144,17 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let found_with = names.zip(models.iter().map(OwnedModel::as_model));
     FoundWith::of(&calibration, found_with).write(&request.out)?;
     Ok(tracked)
+}
+
+/// The study; what there is to say of its keys is told.
+fn read_study(request: &Request) -> Result<Study> {
+    let (study, remarks) = Study::with_remarks(&request.study)?;
+    let file = request.study.display();
+    for remark in remarks {
+        (request.listener)(Told::Remark(format!("in {file}: {remark}")));
+    }
+    check_components(request, &study)?;
+    Ok(study)
 }
 
 /// Follows all components from their anchors in the squares that the film is well read in; `parts` are the components as they are seen in those.
