@@ -68,7 +68,7 @@ pub fn run(args: Args) -> Result<u8> {
     let as_taken = beads.clone();
     if let Some(path) = &args.distortion {
         let corrected = fit(&mut beads, size).with_context(|| name.clone())?;
-        describe_distortion(&corrected);
+        describe_distortion(&corrected, &beads);
         write_distortion(path, &corrected, &name)?;
         for bead in &mut beads {
             *bead = Bead::new(corrected.distortion.undistorted(bead.at), bead.index);
@@ -124,15 +124,26 @@ pub fn beads_of(picture: &GreyFrame, bright: bool, radius: Option<f64>) -> Resul
     Ok(beads)
 }
 
-fn describe_distortion(corrected: &Corrected) {
+fn describe_distortion(corrected: &Corrected, beads: &[Bead]) {
+    let reach = |axis: usize| {
+        let used = beads.iter().filter(|bead| bead.index.is_some());
+        let places = used.map(|bead| bead.at[axis]);
+        let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+            (at.min(low), at.max(high))
+        });
+        format!("{low:.0} to {high:.0}")
+    };
     println!(
-        "distortion: {:.3} px RMS before, {:.3} px after a correction of order {}; {} beads used, {} dropped; largest shift {:.1} px",
+        "distortion: {:.3} px RMS before, {:.3} px after a correction of order {}; {} beads used, {} dropped; largest shift {:.1} px among them, in columns {} and rows {}; \
+         beyond them the correction is extrapolated",
         corrected.before_px,
         corrected.after_px,
         corrected.distortion.order(),
         corrected.used,
         corrected.dropped,
-        corrected.distortion.largest_shift_px()
+        corrected.distortion.largest_shift_px(),
+        reach(0),
+        reach(1)
     );
     let told = ORDERS
         .iter()
