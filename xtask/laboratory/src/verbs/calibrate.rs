@@ -134,8 +134,8 @@ fn describe_distortion(corrected: &Corrected, beads: &[Bead]) {
         format!("{low:.0} to {high:.0}")
     };
     println!(
-        "distortion: {:.3} px RMS before, {:.3} px after a correction of order {}; {} beads used, {} dropped; largest shift {:.1} px among them, in columns {} and rows {}; \
-         beyond them the correction is extrapolated",
+        "distortion: {:.3} px RMS before, {:.3} px after a correction of order {}; {} beads used, {} dropped; largest shift {:.1} px within their radius; they reach \
+         over columns {} and rows {}: beyond them the correction is extrapolated",
         corrected.before_px,
         corrected.after_px,
         corrected.distortion.order(),
