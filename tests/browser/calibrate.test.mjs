@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { drawn, pageTest, says, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
-import { distorted, ideal, plate, PLATE } from './support/plates.mjs';
+import { distorted, ideal, plate, PLATE, tilted } from './support/plates.mjs';
 import { Stage } from './support/stage.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -96,6 +96,28 @@ pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
     await sheet.getByRole('button', { name: 'Undistort outlines only' }).click();
     await said(/In use on outlines/);
     await until(() => stage.greyAt(distorted(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
+  });
+});
+
+pageTest('a tilted plate is told from a distorted picture', async (page, t) => {
+  await step(page, t, 'its camera is right as it was taken, and said to be off once a correction has taken the tilt', async (t) => {
+    await choose(page, plate('tilted.png', tilted));
+    await panel.waitForFrames(page, 1);
+    const sheet = await openSheet(page);
+    const camera = sheet.getByRole('group', { name: 'Camera' });
+    await sheet.getByRole('button', { name: 'Find the beads' }).click();
+    await says(sheet, /px after a correction of order \d/);
+    await fill(sheet, LENGTHS);
+    const asTaken = await pitch(sheet);
+    assert(Math.abs(asTaken / TRUE_PITCH - 1) < 0.003, `${asTaken} for ${TRUE_PITCH}`);
+    assert.doesNotMatch(await camera.innerText(), /takes for distortion/);
+    await sheet.getByRole('button', { name: 'Undistort the frames' }).click();
+    await says(sheet, /In use on frames/);
+    await says(camera, /As it was taken the plate is tilted by 12°, which the correction takes for distortion/);
+    const straightened = await pitch(sheet);
+    t.diagnostic(`pixel pitch ${asTaken} mm, ${straightened} mm straightened, ${TRUE_PITCH} mm in truth`);
+    assert(Math.abs(straightened / TRUE_PITCH - 1) > 0.005, `${straightened} would be right`);
+    await screenshot(page, 'calibrate tilted');
   });
 });
 
