@@ -7,7 +7,9 @@ use anyhow::{Context, Result, bail};
 use fluoropose::pose::{EulerPose, Pose};
 use serde::Serialize;
 
-use crate::files::{camera_for, read_calibration, read_mask, read_model, read_poses, write_json};
+use crate::files::{
+    camera_for, read_calibration, read_mask, read_model, read_poses, size_taken, write_json,
+};
 
 use crate::measure::bound::{Limit, Outlines, PoseLimits};
 
@@ -122,7 +124,11 @@ pub fn run(args: Args) -> Result<()> {
     };
     options.check()?;
     let model = read_model(&args.model)?;
-    let camera = camera_for(&read_calibration(&args.calibration)?, args.frame)?;
+    let calibration = read_calibration(&args.calibration)?;
+    let camera = camera_for(&calibration, args.frame)?;
+    if let Some(taken) = size_taken(&calibration, (camera.width(), camera.height())) {
+        eprintln!("{taken}");
+    }
     let poses = match (&args.poses, args.pose) {
         (Some(path), _) => read_poses(path)?.into_iter().flatten().collect(),
         (None, Some(SixNumbers(pose))) => vec![Pose::from(pose)],
