@@ -32,8 +32,12 @@ pub(crate) struct Args {
 /// Where there is nothing to copy, and where tests fail without a change. A change that is missed is no error: it is listed.
 pub(crate) fn run(args: Args) -> Result<()> {
     let copy = workspace::target_dir().join("mutants/sources");
-    fs::create_dir_all(&copy).with_context(|| format!("cannot make {}", copy.display()))?;
-    sources::copy(&copy)?;
+    let asks = |option: &String| matches!(option.as_str(), "--help" | "-h");
+    // Another run may have woven its changes into the copy.
+    if !args.options.iter().any(asks) {
+        fs::create_dir_all(&copy).with_context(|| format!("cannot make {}", copy.display()))?;
+        sources::copy(&copy)?;
+    }
     let mut program = own_cargo();
     program.args([
         "run",
