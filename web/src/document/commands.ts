@@ -1,5 +1,6 @@
 import type { Command, Place } from './command';
 import { byHand, isSilhouette } from './laid_by';
+import { foundAnew } from './found_anew';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
@@ -187,18 +188,33 @@ export function addFrames(frames: readonly FrameEntry[], unread?: readonly strin
   };
 }
 
+/** Poses mean nothing with another one. */
 export function setCalibration(calibration: Calibration | null): Command {
-  return { label: texts.steps.changeCalibration, apply: (doc) => ({ ...doc, calibration }) };
+  return {
+    label: texts.steps.changeCalibration,
+    apply: (doc) => {
+      const isOther = doc.calibration !== null && doc.calibration.text !== calibration?.text;
+      return { ...doc, calibration, cells: isOther ? foundAnew(doc, () => true) : doc.cells };
+    },
+  };
 }
 
 /** Axes are those of a file: with another one they are found again. What a study said before its model came is of this one. */
 export function setModel(name: ComponentName, model: ModelReference): Command {
-  return onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({
+  const { label, apply } = onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({
     ...component,
     model,
     // A model in another unit lies in the same axes.
     axes: component.model === null || (model.writtenFrom && model.writtenFrom.name === component.model.name) ? component.axes : null,
   }));
+  const isOther = (there: ModelReference | null) => there !== null && there.sha256 !== model.sha256;
+  return {
+    label,
+    apply: (doc) => {
+      const cells = isOther(doc.components[name].model) ? foundAnew(doc, (component) => component === name) : doc.cells;
+      return { ...apply(doc), cells };
+    },
+  };
 }
 
 /**

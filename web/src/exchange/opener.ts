@@ -4,6 +4,7 @@ import { byName } from './name_order';
 import { asSentence, ended } from '../texts/sentences';
 import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
+import { droppedIn } from '../document/found_anew';
 import { readDistortionFile } from '../document/distortion';
 import { distinct } from '../document/same_frames';
 import { componentIn, takeStudy, type Study } from '../document/study';
@@ -300,8 +301,15 @@ async function openCalibration({ store, studio }: Services, file: Incoming): Pro
   const text = await textOf(file);
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);
+  const before = store.doc;
   store.perform(commands.setCalibration({ name, text }));
-  return texts.said.theCalibration(name);
+  return texts.said.theCalibration(name) + droppedSince(before, store.doc);
+}
+
+/** What a replaced calibration or model took with it, in words; nothing where it did not. */
+function droppedSince(before: Doc, after: Doc): string {
+  const dropped = droppedIn(before, after);
+  return dropped === 0 ? '' : ` (${later.opening.dropped(dropped)})`;
 }
 
 async function openDistortion(services: Services, file: Incoming): Promise<string> {
@@ -316,9 +324,10 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const shaped = services.studio.shapeOf(asset.sha256);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null, shaped);
   const remarks = services.studio.remarksOn(asset.sha256);
-  const known = store.doc.components[component].model?.sha256 === asset.sha256;
+  const before = store.doc;
+  const known = before.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
-  const named = texts.said.asModel(file.name, texts.component[component]);
+  const named = texts.said.asModel(file.name, texts.component[component]) + droppedSince(before, store.doc);
   // What a person or a name says is done, and what the shape says is said.
   const opened = shaped === otherThan(component) ? texts.models.besides(named, texts.models.shape[component]) : named;
   return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));

@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 import * as commands from '../document/commands';
+import { droppedIn } from '../document/found_anew';
 import { currentFrame, type State } from '../document/store';
 import type { CalibrationFacts } from '../workers/protocol/camera';
 import { cameraDoubts, cameraKey } from '../jobs/camera_doubts';
@@ -7,6 +8,8 @@ import { sentenceOf } from '../jobs/services';
 import { useApp } from '../commands/app';
 import { NumberField } from '../controls/number_field';
 import { StatedGeometry } from './stated_geometry';
+import { asSentence } from '../texts/sentences';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 
 /** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
@@ -27,7 +30,10 @@ export function CalibrationSheet({ state }: { state: State }) {
     try {
       const size = frame ?? { width: 1024, height: 1024 };
       const text = studio.calibrationText(typed.distance, typed.offsetX, typed.offsetY, typed.pitch, size);
+      const before = store.doc;
       store.perform(commands.setCalibration({ name: texts.calibration.typedName, text }));
+      const dropped = droppedIn(before, store.doc);
+      if (dropped > 0) store.say('info', asSentence(later.opening.dropped(dropped)));
       setTrouble('');
       store.show({ popover: null });
       void cameraDoubts(services).then((doubts) => doubts.forEach((doubt) => store.say('error', doubt)));

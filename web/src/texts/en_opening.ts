@@ -3,6 +3,8 @@ export const opening = {
   archive: 'this is an archive, which the page does not look into: unpack it, and open the folder',
   steppedAside: (name: string) => `It is a study of its own: ${name || 'what was open'} is under Save, Earlier work.`,
   backTo: (name: string) => `Back to ${name || 'what was open'}`,
+  /** Without its full stop. */
+  dropped: (cells: number) => `${cells} followed ${cells === 1 ? 'pose is' : 'poses are'} dropped, found with the one before: Follow again, or undo`,
   andMoreFiles: (count: number) => `${count} more are in the list of messages.`,
   otherOrder: (byName: string, byPlace: string) =>
     `Frames stand by the names of their files, which state another order (Instance Number): ${byName} is first by name, ${byPlace} by number. Which is that of time?`,
