@@ -19,7 +19,7 @@ export const calibrateSheet = {
     }.`,
   validated: (orders: string) => `Cross-validated residual: ${orders}.`,
   orderResidual: (order: number, residual: string | null) => `order ${order} ${residual === null ? 'too few beads' : `${residual} px`}`,
-  largest: (shift: string) => `The largest shift of a pixel inside the grid is ${shift} px; outside it the correction is extrapolated.`,
+  largest: (shift: string) => `The largest shift of a pixel inside the grid is ${shift} px; outside it the correction is extrapolated. A plate that is not level with the detector looks distorted too: the lengths below tell.`,
   small: 'That is hardly more than the error of the bead centres: a correction is not worth it.',
   map: (times: number) => `Residuals of the beads before (thin) and after (thick) correction, ${times} times as long`,
   toFrames: 'Undistort the frames',
@@ -45,7 +45,7 @@ export const calibrateSheet = {
     `Pixel pitch ${pitch} mm at the detector, focal length ${focal} px, from ${length} px between the marks.`,
   point: (x: string, y: string) => `principal point ${x}, ${y} mm from the frame's middle.`,
   pointUnknown: (tilt: string) =>
-    `principal point: the frame's middle. A plate this level (${tilt}°) does not show it; tilt the plate by 20° or more in both directions, or type it in the calibration.`,
+    `principal point: the frame's middle. A plate this level (${tilt}°) does not show it; type it in the calibration, or, where no correction is made of the same frame, tilt the plate by 20° or more in both directions.`,
   pointOfRuler: 'The principal point is taken to be the frame’s middle: a ruler does not show it.',
   residual: (residual: string, beads: number) => `${beads} beads lie ${residual} px (RMS) from where this camera sees them.`,
   distortedFirst: (before: string) => `The picture is distorted by ${before} px (RMS): correct the distortion first, or the pitch is that of the middle at best.`,
