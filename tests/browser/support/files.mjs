@@ -21,7 +21,8 @@ export async function choose(page, ...files) {
 
 /** @type {string[]} */
 const folders = [];
-after(() => Promise.all(folders.map((folder) => rm(folder, { recursive: true }))));
+// A browser that was closed may write its profile for a moment more.
+after(() => Promise.all(folders.map((folder) => rm(folder, { recursive: true, maxRetries: 20, retryDelay: 250 }))));
 
 /** A new empty folder, deleted when the tests of this process end. */
 export async function temporaryFolder() {
