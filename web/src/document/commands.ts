@@ -1,6 +1,6 @@
 import type { Command, Place } from './command';
 import { byHand, isSilhouette } from './laid_by';
-import { foundAnew } from './found_anew';
+import { anew, foundAnew } from './found_anew';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
@@ -194,7 +194,7 @@ export function setCalibration(calibration: Calibration | null): Command {
     label: texts.steps.changeCalibration,
     apply: (doc) => {
       const isOther = doc.calibration !== null && doc.calibration.text !== calibration?.text;
-      return { ...doc, calibration, cells: isOther ? foundAnew(doc, () => true) : doc.cells };
+      return { ...doc, calibration, cells: isOther ? foundAnew(doc, null) : doc.cells };
     },
   };
 }
@@ -211,15 +211,15 @@ export function setModel(name: ComponentName, model: ModelReference): Command {
   return {
     label,
     apply: (doc) => {
-      const cells = isOther(doc.components[name].model) ? foundAnew(doc, (component) => component === name) : doc.cells;
+      const cells = isOther(doc.components[name].model) ? foundAnew(doc, name) : doc.cells;
       return { ...apply(doc), cells };
     },
   };
 }
 
 /**
- * The models change places, with their libraries and what a person said of their axes. What was found with them is found anew;
- * what was followed is dropped, and so are outlines that are a silhouette of the wrong model, where a click led.
+ * The models change places, with their libraries and what a person said of their axes. What was found with them is found anew; outlines that
+ * are a silhouette of the wrong model, where a click led, are dropped.
  */
 export function swapModels(): Command {
   const moved = (component: Component): Component => ({ ...component, axes: component.axes?.from === 'shape' ? null : component.axes });
@@ -229,7 +229,7 @@ export function swapModels(): Command {
       const { femur, tibia } = doc.components;
       const cells = doc.cells.map((cell) => {
         if (isSilhouette(cell.outline)) return { ...cell, outline: null, result: null, resultOf: null };
-        return isFromFilm(cell.result) ? { ...cell, result: null, resultOf: null } : cell;
+        return anew(cell);
       });
       return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells };
     },

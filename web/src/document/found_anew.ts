@@ -1,12 +1,9 @@
 import type { ComponentName } from '../terms/component';
 import { type Cell, type Doc, isFromFilm } from './types';
 
-/**
- * The cells once a model or the calibration is another: what was followed with the one before is dropped, since nothing would tell that it is of that one, and
- * what somebody set or opened is judged anew. What an outline led to names what it was found with, and is found again.
- */
-export function foundAnew(doc: Doc, isConcerned: (component: ComponentName) => boolean): Doc['cells'] {
-  return doc.cells.map((cell, _, component) => (isConcerned(component) ? anew(cell) : cell));
+/** The cells of a component, or of all, once its model or the calibration is another. */
+export function foundAnew(doc: Doc, of: ComponentName | null): Doc['cells'] {
+  return doc.cells.map((cell, _, component) => (of === null || of === component ? anew(cell) : cell));
 }
 
 /** How many cells lost a pose that was followed. */
@@ -15,7 +12,11 @@ export function droppedIn(before: Doc, after: Doc): number {
   return lost.length;
 }
 
-function anew(cell: Cell): Cell {
+/**
+ * A cell whose model, camera or frame is another: what was followed with the one before is dropped, since nothing would tell that it is of that one, and what
+ * somebody set or opened is judged anew. What an outline led to names what it was found with, and is found again.
+ */
+export function anew(cell: Cell): Cell {
   const { result } = cell;
   if (result === null) return cell;
   if (isFromFilm(result)) return { ...cell, result: null, resultOf: null };

@@ -1,7 +1,8 @@
 import { framePoint, type FramePoint } from '../geometry/points';
 import type { Command } from './command';
 import { fits, type Distortion } from './distortion';
-import type { Doc, Outline } from './types';
+import { anew } from './found_anew';
+import type { Cell, Doc, Outline } from './types';
 import { texts } from '../texts/texts';
 
 /** Columns and rows by turns, moved. */
@@ -22,14 +23,19 @@ export function setDistortion(distortion: Distortion | null, fromShown: MovePoin
     label: distortion ? texts.steps.correctDistortion : texts.steps.leaveDistortion,
     apply: (doc) => {
       const moves = fromShown !== null || toShown !== null;
-      return { ...doc, distortion, cells: moves ? movedCells(doc, distortion, move) : doc.cells };
+      return { ...doc, distortion, cells: cellsIn(doc, distortion, moves ? move : null) };
     },
   };
 }
 
-function movedCells(doc: Doc, next: Distortion | null, move: (points: readonly FramePoint[]) => readonly FramePoint[]): Doc['cells'] {
+/** Frames look otherwise, or outlines mean others than before: poses are found anew. */
+function cellsIn(doc: Doc, next: Distortion | null, move: ((points: readonly FramePoint[]) => readonly FramePoint[]) | null): Doc['cells'] {
   const concerned = doc.frames.filter((frame) => fits(doc.distortion, frame) || fits(next, frame)).map(({ id }) => id);
   const ids = new Set(concerned);
-  const moved = (outline: Outline): Outline => ({ ...outline, points: move(outline.points) });
-  return doc.cells.map((cell, frameId) => (cell.outline && ids.has(frameId) ? { ...cell, outline: moved(cell.outline) } : cell));
+  const moved = (outline: Outline | null) => outline && move && { ...outline, points: move(outline.points) };
+  const changed = (cell: Cell): Cell => {
+    const outline = moved(cell.outline);
+    return anew(outline ? { ...cell, outline } : cell);
+  };
+  return doc.cells.map((cell, frameId) => (ids.has(frameId) ? changed(cell) : cell));
 }

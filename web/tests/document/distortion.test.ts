@@ -9,6 +9,7 @@ import {
   readDistortionFile,
   writeDistortionFile,
 } from '../../src/document/distortion';
+import { withCell } from '../../src/document/commands';
 import { setDistortion } from '../../src/document/set_distortion';
 import { perform, startHistory, undo } from '../../src/document/history';
 import { readSession, writeSession } from '../../src/document/session/session';
@@ -76,6 +77,14 @@ describe('a correction of distortion', () => {
     expect(columns(forOutlines)).toEqual([10, 50, 30]);
     const elsewhere = setDistortion(shift(5), null, move(5)).apply(docOf({ width: 500, height: 300 }));
     expect(columns(elsewhere)).toEqual([10, 50, 30]);
+  });
+
+  it('drops what was followed on frames that look otherwise, and on no others', () => {
+    const result = { kind: 'posed', from: 'film', origin: 'followed from frame 1', candidates: [], chosen: 0, reason: null, decided: true, verdict: null } as const;
+    const followed = (doc: Doc) => withCell(doc, { frameId: 'a:0', component: 'tibia' }, { outline: null, result, resultOf: null });
+    const left = (doc: Doc) => setDistortion(shift(5), null, move(5)).apply(doc).cells.at('a:0', 'tibia')?.result ?? null;
+    expect(left(followed(docOf()))).toBeNull();
+    expect(left(followed(docOf({ width: 500, height: 300 })))).toEqual(result);
   });
 
   it('makes poses outdated, and goes to the worker with outlines that are to be undistorted', () => {

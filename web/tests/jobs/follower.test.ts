@@ -438,6 +438,21 @@ describe('following', () => {
     expect(cellOf(store.doc, 'f5', 'femur').result).toBeNull();
   });
 
+  it('stops where model or calibration become others, and takes nothing that was found with the one before', async () => {
+    for (const change of [setModel('femur', { name: 'other', sha256: 'other' }), setCalibration({ name: 'other', text: 'other' })]) {
+      const { store, follower, femur, xs } = bench();
+      store.perform(setPoseByHand(place(0), poseOf(0)));
+      await follower.follow();
+      expect(xs()).toEqual([0, 11, 12, 13, 14, 15]);
+      // All but what somebody set is followed from another pose, and in the middle of it is of another model.
+      store.perform(setPoseByHand(place(0), poseOf(5)));
+      femur.stopAt(3, () => store.perform(change));
+      await follower.follow();
+      expect(xs()).toEqual([5, null, null, null, null, null]);
+      expect(store.ui.following).toBe(false);
+    }
+  });
+
   it('comes back from a session file', async () => {
     const { store, follower } = bench();
     store.perform(setPoseByHand(place(0), poseOf(0)));
