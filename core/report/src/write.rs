@@ -234,18 +234,9 @@ pub fn jtap(pose: &Pose) -> String {
 const EULER_COLUMNS: &str = "X_TRAN\t\tY_TRAN\t\tZ_TRAN\t\tZ_ROT\t\tX_ROT\t\tY_ROT\n";
 
 fn euler_row(out: &mut String, pose: &Pose) {
-    let EulerPose {
-        x_mm,
-        y_mm,
-        z_mm,
-        z_rot_deg,
-        x_rot_deg,
-        y_rot_deg,
-    } = EulerPose::from(*pose);
-    let _ = writeln!(
-        out,
-        "{x_mm},\t{y_mm},\t{z_mm},\t{z_rot_deg},\t{x_rot_deg},\t{y_rot_deg},"
-    );
+    let numbers: [f64; 6] = EulerPose::from(*pose).into();
+    let numbers = numbers.map(|number| number.to_string());
+    let _ = writeln!(out, "{},", numbers.join(",\t"));
 }
 
 /// `.tra`: a row a frame, the bodies side by side, each 16 numbers of `camera_from_model` row by row; NaN where there is no pose.

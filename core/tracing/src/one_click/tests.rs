@@ -2,7 +2,6 @@ mod bench;
 
 use super::*;
 pub(crate) use bench::*;
-use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::Word;
 use fluoropose::library::Library;
@@ -196,11 +195,7 @@ fn the_window_holds_the_component_and_no_more() {
         .needs(&camera);
     assert_eq!(needs.pixels, SIDE * SIDE);
     let library = Library::open(&bench.library).expect("valid");
-    let component = Component {
-        library: &library,
-        model: &model,
-        planes: &[],
-    };
+    let component = component(&library, &model);
     // The window around a click holds the component at its nearest, and no more.
     let click = Prompt::Click(Point::new(0.0, 0.0));
     let needs = OneClick::new(click, &camera, Some(&component))

@@ -5,9 +5,9 @@ use std::path::Path;
 use anyhow::Result;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::mesh::Model;
+use fluoropose_report::cell::{plain, quoted};
 
 use super::text::{csv_fields, read_text, sha256, write_text};
-use fluoropose_report::cell::{plain, quoted};
 
 /// Its file in a folder of poses.
 const FILE: &str = "found_with.csv";
@@ -21,11 +21,12 @@ impl FoundWith {
         calibration: &Calibration,
         models: impl Iterator<Item = (&'m str, Model<'m>)>,
     ) -> Self {
-        let of_calibration = sha256(format!("{calibration:?}").as_bytes());
+        let of_calibration = sha256(calibration.to_string().as_bytes());
         let mut all = vec![("calibration".to_owned(), of_calibration)];
         all.extend(models.map(|(name, model)| {
-            let digest = format!("{:?}", model.digest());
-            (format!("model of the {name}"), sha256(digest.as_bytes()))
+            let digest = model.digest();
+            let hexadecimal = digest.iter().map(|byte| format!("{byte:02x}"));
+            (format!("model of the {name}"), hexadecimal.collect())
         }));
         Self(all)
     }
@@ -59,7 +60,7 @@ impl FoundWith {
         };
         let changed = |(what, digest): &(String, String)| {
             then(what).is_some_and(|then| then != digest).then(|| {
-                format!("The {what} is another than the one that the poses were found with: what is worked out of both may be wrong.")
+                format!("The {what} is another than the one that the poses were found with: they may be wrong with it.")
             })
         };
         Ok(self.0.iter().filter_map(changed).collect())

@@ -101,15 +101,8 @@ struct Table {
 
 /// A pose as `--pose` takes it.
 fn words(pose: &Pose) -> String {
-    let EulerPose {
-        x_mm,
-        y_mm,
-        z_mm,
-        z_rot_deg,
-        x_rot_deg,
-        y_rot_deg,
-    } = EulerPose::from(*pose);
-    format!("{x_mm},{y_mm},{z_mm},{z_rot_deg},{x_rot_deg},{y_rot_deg}")
+    let numbers: [f64; 6] = EulerPose::from(*pose).into();
+    numbers.map(|number| number.to_string()).join(",")
 }
 
 /// Runs the verb.

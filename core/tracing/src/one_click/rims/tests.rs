@@ -1,7 +1,7 @@
 //! Edges drawn where a rim would have them, one behind the other.
 
 use super::super::prompt::Prompt;
-use super::super::tests::{SIDE, camera};
+use super::super::tests::{SIDE, camera, seen};
 use super::*;
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
@@ -44,14 +44,7 @@ fn asked<T>(
         Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits"),
         camera(),
     );
-    let observation = Observation {
-        frame: &frame,
-        camera: &camera,
-        polarity,
-        excluded: None,
-        beside: None,
-        film: None,
-    };
+    let observation = seen(&frame, &camera, polarity);
     let mut work =
         OneClick::new(Prompt::Click(Point::new(50.0, 50.0)), &camera, None).expect("inside");
     work.slope = 250.0;

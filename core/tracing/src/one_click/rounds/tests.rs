@@ -1,6 +1,6 @@
 //! What is tried next, and from where.
 
-use super::super::tests::{Bench, Lent, SIDE, camera, pose, silhouette};
+use super::super::tests::{Bench, Lent, SIDE, camera, component, pose, seen, silhouette};
 use super::*;
 use crate::one_click::Support;
 use fluoropose::image::contour::Point;
@@ -76,11 +76,7 @@ fn beside_the_other_component_less_convinces() {
 fn poses_around_an_answer_are_each_turned_and_moved_otherwise() {
     let bench = Bench::new();
     let (model, library) = (bench.model(), Library::open(&bench.library).expect("valid"));
-    let component = Component {
-        library: &library,
-        model: &model,
-        planes: &[],
-    };
+    let component = component(&library, &model);
     let mut work = work(CLICK);
     assert!(work.rotated(0, &component).is_none());
     work.answers.extend([answer(0.5, 0.0)]);
@@ -111,20 +107,10 @@ fn poses_around_an_answer_are_each_turned_and_moved_otherwise() {
 fn narrowed(mut work: OneClick) -> OneClick {
     let bench = Bench::new();
     let (model, library) = (bench.model(), Library::open(&bench.library).expect("valid"));
-    let component = Component {
-        library: &library,
-        model: &model,
-        planes: &[],
-    };
+    let component = component(&library, &model);
     let (pixels, camera) = (std::vec![0u16; SIDE * SIDE], camera());
-    let observation = Observation {
-        frame: &Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits"),
-        camera: &camera,
-        polarity: Polarity::DarkImplant,
-        excluded: None,
-        beside: None,
-        film: None,
-    };
+    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+    let observation = seen(&frame, &camera, Polarity::DarkImplant);
     work.seeds.extend([7]);
     let mut lent = Lent::new(&work.needs(&camera), &library, &bench, 0);
     work.narrow(&observation, &component, &mut lent.borrow());

@@ -7,6 +7,7 @@ use fluoropose::film::LineMemory;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
+use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::library::Library;
 use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
@@ -140,6 +141,31 @@ pub(super) fn drawn_with_wall(model: &Model<'_>, cluttered: bool, wall: f64) -> 
         .collect()
 }
 
+/// A frame of which nothing else is known.
+pub(crate) fn seen<'f>(
+    frame: &'f dyn Grey,
+    camera: &'f Camera,
+    polarity: Polarity,
+) -> Observation<'f> {
+    Observation {
+        frame,
+        camera,
+        polarity,
+        excluded: None,
+        beside: None,
+        film: None,
+    }
+}
+
+/// A component without symmetry planes.
+pub(crate) fn component<'c>(library: &'c Library<'c>, model: &'c Model<'c>) -> Component<'c> {
+    Component {
+        library,
+        model,
+        planes: &[],
+    }
+}
+
 /// Memory for the work that is not empty.
 pub(crate) struct Lent {
     pixels: [Vec<u16>; 3],
@@ -269,19 +295,8 @@ impl Bench {
         let (model, camera) = (self.model(), camera());
         let library = Library::open(&self.library).expect("valid");
         let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
-        let observation = Observation {
-            frame: &frame,
-            camera: &camera,
-            polarity,
-            excluded: None,
-            beside: None,
-            film: None,
-        };
-        let component = Component {
-            library: &library,
-            model: &model,
-            planes: &[],
-        };
+        let observation = seen(&frame, &camera, polarity);
+        let component = component(&library, &model);
         let component = with_component.then_some(&component);
         let mut work = OneClick::new(prompt, &camera, component)?;
         if let Some(component) = component.filter(|_| self.farther) {
