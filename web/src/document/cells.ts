@@ -98,7 +98,8 @@ export class Cells<Cell> {
   }
 }
 
-function partsOf(key: string): readonly [string, ComponentName] {
+/** Of a `cellKey`. */
+export function partsOf(key: string): readonly [frameId: string, component: ComponentName] {
   const at = key.lastIndexOf('/');
   return [key.slice(0, at), key.slice(at + 1) as ComponentName];
 }

@@ -1,6 +1,7 @@
 import type { Command, Place } from './command';
 import { byHand, isSilhouette } from './laid_by';
 import { anew, foundAnew } from './found_anew';
+import { withOtherPoses } from './marks';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
@@ -194,7 +195,7 @@ export function setCalibration(calibration: Calibration | null): Command {
     label: texts.steps.changeCalibration,
     apply: (doc) => {
       const isOther = doc.calibration !== null && doc.calibration.text !== calibration?.text;
-      return { ...doc, calibration, cells: isOther ? foundAnew(doc, null) : doc.cells };
+      return { ...(isOther ? foundAnew(doc, null) : doc), calibration };
     },
   };
 }
@@ -210,10 +211,7 @@ export function setModel(name: ComponentName, model: ModelReference): Command {
   const isOther = (there: ModelReference | null) => there !== null && there.sha256 !== model.sha256;
   return {
     label,
-    apply: (doc) => {
-      const cells = isOther(doc.components[name].model) ? foundAnew(doc, name) : doc.cells;
-      return { ...apply(doc), cells };
-    },
+    apply: (doc) => apply(isOther(doc.components[name].model) ? foundAnew(doc, name) : doc),
   };
 }
 
@@ -231,7 +229,7 @@ export function swapModels(): Command {
         if (isSilhouette(cell.outline)) return { ...cell, outline: null, result: null, resultOf: null };
         return anew(cell);
       });
-      return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells };
+      return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells, marks: withOtherPoses(doc, () => true) };
     },
   };
 }

@@ -1,9 +1,18 @@
+import { distortionKey } from './distortion';
 import type { ComponentName } from '../terms/component';
+import { withOtherPoses } from './marks';
 import { type Cell, type Doc, isFromFilm } from './types';
 
-/** The cells of a component, or of all, once its model or the calibration is another. */
-export function foundAnew(doc: Doc, of: ComponentName | null): Doc['cells'] {
-  return doc.cells.map((cell, _, component) => (of === null || of === component ? anew(cell) : cell));
+/** What all poses of a document are found with, the frames apart. */
+export function foundWith({ components: { femur, tibia }, calibration, distortion }: Doc): string {
+  return JSON.stringify([femur.model?.sha256, tibia.model?.sha256, calibration?.text, distortion && distortionKey(distortion)]);
+}
+
+/** The document once the model of a component is another, or, for all, the calibration: what a person checked of a pose was not this one. */
+export function foundAnew(doc: Doc, of: ComponentName | null): Doc {
+  const isConcerned = (component: ComponentName) => of === null || of === component;
+  const cells = doc.cells.map((cell, _, component) => (isConcerned(component) ? anew(cell) : cell));
+  return { ...doc, cells, marks: withOtherPoses(doc, (_, component) => isConcerned(component)) };
 }
 
 /** How many cells lost a pose that was followed. */

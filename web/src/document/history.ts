@@ -71,8 +71,8 @@ export function amend(history: History, change: (doc: Doc) => Doc): History {
   const present = change(history.present);
   const gestureStart = history.gestureStart && change(history.gestureStart);
   if (present === history.present && gestureStart === history.gestureStart) return history;
-  history.amended.note(history.present.cells, present.cells);
-  if (history.gestureStart && gestureStart) history.amended.note(history.gestureStart.cells, gestureStart.cells);
+  history.amended.note(history.present, present);
+  if (history.gestureStart && gestureStart) history.amended.note(history.gestureStart, gestureStart);
   const amended = (doc: Doc) =>
     doc === history.present ? present : doc === history.gestureStart && gestureStart ? gestureStart : doc;
   return { ...history, present, gestureStart, saved: amended(history.saved) };

@@ -1,3 +1,5 @@
+import type { ComponentName } from '../terms/component';
+import { partsOf } from './cells';
 import type { Command, Place } from './command';
 import { cellKey, cellOf, chosenCandidate, type Cell, type Doc, type Mark, verdictOf } from './types';
 import { texts } from '../texts/texts';
@@ -42,6 +44,19 @@ export function toggleFlagged(place: Place): Command {
 export function setNote(place: Place, note: string): Command {
   const mergeKey = `note ${cellKey(place.frameId, place.component)}`;
   return { ...onMark(texts.steps.writeNote, place, (mark) => ({ ...mark, note })), mergeKey };
+}
+
+/** No fingerprint: what was looked at is there no more. */
+const GONE = 'gone';
+
+/** The marks once all poses of components are others: they say that their cells changed since. */
+export function withOtherPoses(doc: Doc, isConcerned: (frameId: string, component: ComponentName) => boolean): Doc['marks'] {
+  const changed = ([key, mark]: [string, Mark]): [string, Mark] => {
+    const [frameId, component] = partsOf(key);
+    const isOther = mark.checked !== null && isConcerned(frameId, component) && chosenCandidate(cellOf(doc, frameId, component)) !== null;
+    return [key, isOther ? { ...mark, checked: GONE } : mark];
+  };
+  return Object.fromEntries(Object.entries(doc.marks).map(changed));
 }
 
 function onMark(label: string, place: Place, change: (mark: Mark, cell: Cell) => Mark): Command {

@@ -2,6 +2,7 @@ import { framePoint, type FramePoint } from '../geometry/points';
 import type { Command } from './command';
 import { fits, type Distortion } from './distortion';
 import { anew } from './found_anew';
+import { withOtherPoses } from './marks';
 import type { Cell, Doc, Outline } from './types';
 import { texts } from '../texts/texts';
 
@@ -23,19 +24,24 @@ export function setDistortion(distortion: Distortion | null, fromShown: MovePoin
     label: distortion ? texts.steps.correctDistortion : texts.steps.leaveDistortion,
     apply: (doc) => {
       const moves = fromShown !== null || toShown !== null;
-      return { ...doc, distortion, cells: cellsIn(doc, distortion, moves ? move : null) };
+      const concerned = concernedBy(doc, distortion);
+      const marks = withOtherPoses(doc, (frameId) => concerned.has(frameId));
+      return { ...doc, distortion, cells: cellsIn(doc, concerned, moves ? move : null), marks };
     },
   };
 }
 
-/** Frames look otherwise, or outlines mean others than before: poses are found anew. */
-function cellsIn(doc: Doc, next: Distortion | null, move: ((points: readonly FramePoint[]) => readonly FramePoint[]) | null): Doc['cells'] {
-  const concerned = doc.frames.filter((frame) => fits(doc.distortion, frame) || fits(next, frame)).map(({ id }) => id);
-  const ids = new Set(concerned);
+/** Frames that look otherwise, or whose outlines mean others than before. */
+function concernedBy(doc: Doc, next: Distortion | null): ReadonlySet<string> {
+  return new Set(doc.frames.filter((frame) => fits(doc.distortion, frame) || fits(next, frame)).map(({ id }) => id));
+}
+
+/** Their poses are found anew. */
+function cellsIn(doc: Doc, concerned: ReadonlySet<string>, move: ((points: readonly FramePoint[]) => readonly FramePoint[]) | null): Doc['cells'] {
   const moved = (outline: Outline | null) => outline && move && { ...outline, points: move(outline.points) };
   const changed = (cell: Cell): Cell => {
     const outline = moved(cell.outline);
     return anew(outline ? { ...cell, outline } : cell);
   };
-  return doc.cells.map((cell, frameId) => (ids.has(frameId) ? changed(cell) : cell));
+  return doc.cells.map((cell, frameId) => (concerned.has(frameId) ? changed(cell) : cell));
 }

@@ -1,11 +1,11 @@
 import { filmNumbers } from '../document/film';
 import { type Followed, takeFollowed, withoutSoFar } from '../document/followed';
-import { anew } from '../document/found_anew';
+import { anew, foundWith } from '../document/found_anew';
 import { currentFrame } from '../document/store';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
 import { spanToFollow } from '../results/spans';
 import { standingOf } from '../results/steps';
-import { cameraOf, inputsOf } from '../results/keys';
+import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -48,8 +48,8 @@ export class Follower {
     const refusal = this.#refusal();
     if (refusal !== null) return store.say('info', refusal);
     const abort = (this.#abort = new AbortController());
-    const inputs = inputsOf(store.doc);
-    const unsubscribe = store.subscribe(() => inputsOf(store.doc) !== inputs && abort.abort());
+    const inputs = foundWith(store.doc);
+    const unsubscribe = store.subscribe(() => foundWith(store.doc) !== inputs && abort.abort());
     store.show({ following: true });
     try {
       const missing = await this.#begin(abort);
@@ -112,11 +112,11 @@ export class Follower {
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
     const before: Before = new Map();
-    const inputs = inputsOf(store.doc);
+    const inputs = foundWith(store.doc);
     const cancel = () => abort.abort();
     const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel };
     const found = await asJob(store, job, (report) => this.#all(parts, before, report, { signal: abort.signal, cancel }));
-    const isAsBefore = inputsOf(store.doc) === inputs;
+    const isAsBefore = foundWith(store.doc) === inputs;
     const left = [...before.values()].map(([place, cell]) => [place, isAsBefore ? cell : anew(cell)] as const);
     store.amend((doc) => withoutSoFar(doc, left));
     // Found with a model or a calibration that is another by now.

@@ -22,11 +22,6 @@ function viewsText({ views, ...settings }: LibrarySpec): string {
   return `${views === 'window' ? '' : `${views} `}${JSON.stringify(settings)}`;
 }
 
-/** What all poses of a document are found with, the frames apart. */
-export function inputsOf({ components: { femur, tibia }, calibration, distortion }: Doc): string {
-  return JSON.stringify([femur.model?.sha256, tibia.model?.sha256, calibration?.text, distortion && distortionKey(distortion)]);
-}
-
 /** What a pose in this frame is found with. */
 export function poseKey(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
   return poseKeys(doc)(component, frame);

@@ -1,11 +1,12 @@
 import { expect, it } from 'vitest';
-import { addFrames, setCalibration, setModel } from '../../src/document/commands';
+import { addFrames, setCalibration, setModel, swapModels, withCell } from '../../src/document/commands';
 import { takeFollowed } from '../../src/document/followed';
 import { droppedIn } from '../../src/document/found_anew';
 import { bare } from '../../src/document/hand_poses';
+import { checkState, markOf, toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
-import { cellOf, type Posed } from '../../src/document/types';
-import { withCell } from '../../src/document/commands';
+import { cellOf, type Outline, type Posed } from '../../src/document/types';
+import { framePoint } from '../../src/geometry/points';
 
 const POSE = { x: 0, y: 0, z: -900, zRot: 0, xRot: 0, yRot: 0 };
 const place = (frameId: string, component: 'femur' | 'tibia' = 'femur') => ({ frameId, component }) as const;
@@ -57,4 +58,53 @@ it('so it is of both components with another calibration, and the same one chang
   store.undo();
   store.perform(setCalibration(null));
   expect(states(store)[0]).toBe('empty');
+});
+
+/** From an outline, and checked. */
+function traced(): Store {
+  const store = work();
+  const outline: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(5, 5)], closed: true, unknownSides: [] };
+  const result: Posed = { kind: 'posed', from: 'outline', origin: 'as it was', candidates: [bare(POSE)], chosen: 0, reason: null, decided: true, verdict: { word: 'doubtful', because: 'it may be flipped' } };
+  store.perform({ label: 'trace', apply: (doc) => withCell(doc, place('c', 'tibia'), { outline, result, resultOf: outline }) });
+  store.perform(toggleChecked(place('c', 'tibia')));
+  return store;
+}
+
+function checkedIn(store: Store): string {
+  return checkState(cellOf(store.doc, 'c', 'tibia'), markOf(store.doc, place('c', 'tibia')));
+}
+
+it('what somebody accepted is no longer, with another model or calibration, before anything is found again', () => {
+  const store = traced();
+  expect(checkedIn(store)).toBe('yes');
+  for (const other of [setModel('tibia', { name: 'larger', sha256: 'larger' }), setCalibration({ name: 'other', text: 'two' }), swapModels()]) {
+    store.perform(other);
+    expect(checkedIn(store)).toBe('changed since');
+    store.undo();
+    expect(checkedIn(store)).toBe('yes');
+  }
+  store.perform(setModel('femur', { name: 'larger', sha256: 'larger' }));
+  expect(checkedIn(store)).toBe('yes');
+});
+
+it('undo of another calibration brings back what was found before, not what was found with that one', () => {
+  const store = traced();
+  const at = place('c', 'tibia');
+  const found = () => (cellOf(store.doc, at.frameId, at.component).result as Posed).candidates[0]?.pose.z;
+  const finds = (z: number) =>
+    store.amend((doc) => {
+      const cell = cellOf(doc, at.frameId, at.component);
+      return withCell(doc, at, { ...cell, result: { ...(cell.result as Posed), candidates: [bare({ ...POSE, z })] } });
+    });
+  finds(-901);
+  store.perform(setCalibration({ name: 'other', text: 'two' }));
+  finds(-1001);
+  store.undo();
+  expect(found()).toBe(-901);
+  store.redo();
+  expect(found()).toBe(-1001);
+  store.undo();
+  finds(-902);
+  store.perform(setModel('femur', { name: 'm', sha256: 'femur' }));
+  expect(found()).toBe(-902);
 });
