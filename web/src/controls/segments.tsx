@@ -1,3 +1,5 @@
+import { byArrows } from './radios';
+
 interface SegmentsProps<T extends string> {
   readonly label: string;
   /** The label stands beside the buttons, not only in their name. */
@@ -9,10 +11,12 @@ interface SegmentsProps<T extends string> {
 
 /** One of a few: a row of buttons. */
 export function Segments<T extends string>({ label, shown = false, options, value, onChoose }: SegmentsProps<T>) {
+  // The group is one stop of the Tab key, whatever is chosen.
+  const stop = options.some((option) => option.value === value) ? value : options[0]?.value;
   return (
     <div class="segments-row">
       {shown && <span class="segments-label">{label}</span>}
-      <div class="segments" role="radiogroup" aria-label={label}>
+      <div class="segments" role="radiogroup" aria-label={label} onKeyDown={byArrows}>
         {options.map(({ value: option, title, key, hint }) => (
           <button
             key={option}
@@ -20,6 +24,7 @@ export function Segments<T extends string>({ label, shown = false, options, valu
             role="radio"
             class="segment"
             aria-checked={option === value}
+            tabIndex={option === stop ? 0 : -1}
             aria-keyshortcuts={key}
             title={hint ?? (key ? `${title} (${key})` : title)}
             onClick={() => onChoose(option)}

@@ -107,9 +107,10 @@ interface StatedAxesProps {
 /** Two of the file's axes tell the third: what is said is a right-handed frame. */
 function StatedAxes({ axes, onSay, canReset }: StatedAxesProps) {
   const known = axes && axes.told !== 'nothing' ? axes.directions : null;
-  const [anterior, setAnterior] = useState<AxisWord>((known && wordOf(known[0])) ?? 'x');
-  const [superior, setSuperior] = useState<AxisWord>((known && wordOf(known[1])) ?? 'y');
-  const directions = directionsOf(anterior, superior);
+  // Axes that lie between those of the file are none of the choices, and nothing is proposed in their place.
+  const [anterior, setAnterior] = useState<AxisWord | null>(known && wordOf(known[0]));
+  const [superior, setSuperior] = useState<AxisWord | null>(known && wordOf(known[1]));
+  const directions = anterior && superior && directionsOf(anterior, superior);
   const words = texts.axes;
   const same = axes?.told === 'all' && JSON.stringify(axes.directions) === JSON.stringify(directions);
   return (
@@ -122,7 +123,7 @@ function StatedAxes({ axes, onSay, canReset }: StatedAxesProps) {
     >
       <AxisChoice label={words.anterior} value={anterior} onChoose={setAnterior} />
       <AxisChoice label={words.superior} value={superior} onChoose={setSuperior} />
-      <output class="sheet-text quiet">{directions ? words.third(shown(wordOf(directions[2]) ?? 'z')) : words.skew}</output>
+      <output class="sheet-text quiet">{directions ? words.third(shown(wordOf(directions[2]) ?? 'z')) : anterior && superior ? words.skew : words.choose}</output>
       <div class="sheet-buttons">
         <button type="submit" class="button" disabled={!directions || same}>
           {words.use}
@@ -137,11 +138,12 @@ function StatedAxes({ axes, onSay, canReset }: StatedAxesProps) {
   );
 }
 
-function AxisChoice({ label, value, onChoose }: { label: string; value: AxisWord; onChoose: (word: AxisWord) => void }) {
+function AxisChoice({ label, value, onChoose }: { label: string; value: AxisWord | null; onChoose: (word: AxisWord) => void }) {
   return (
     <label class="axis-choice">
       <span>{label}</span>
-      <select aria-label={label} value={value} onChange={(event) => onChoose(event.currentTarget.value as AxisWord)}>
+      <select aria-label={label} value={value ?? ''} onChange={(event) => onChoose(event.currentTarget.value as AxisWord)}>
+        {value === null && <option value="">–</option>}
         {AXIS_WORDS.map((word) => (
           <option key={word} value={word}>
             {shown(word)}

@@ -1,6 +1,7 @@
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { fileName, write } from '../commands/exporting';
 import { useApp } from '../commands/app';
+import { byArrows } from '../controls/radios';
 import { Segments } from '../controls/segments';
 import type { State } from '../document/store';
 import { COMPONENT_NAMES, titleOf } from '../terms/component';
@@ -22,9 +23,17 @@ export function ExportSheet({ state }: { state: State }) {
   const words = later.exporting;
   return (
     <div class="sheet-body export">
-      <div class="export-kinds" role="radiogroup" aria-label={words.kinds}>
+      <div class="export-kinds" role="radiogroup" aria-label={words.kinds} onKeyDown={byArrows}>
         {EXPORTS.map((kind) => (
-          <button key={kind} type="button" role="radio" class="export-kind" aria-checked={kind === exporting.kind} onClick={() => store.show({ exporting: { ...exporting, kind } })}>
+          <button
+            key={kind}
+            type="button"
+            role="radio"
+            class="export-kind"
+            aria-checked={kind === exporting.kind}
+            tabIndex={kind === exporting.kind ? 0 : -1}
+            onClick={() => store.show({ exporting: { ...exporting, kind } })}
+          >
             {words.kind[kind]}
           </button>
         ))}
@@ -59,13 +68,22 @@ function Contents({ state }: { state: State }) {
     setBusy(true);
     await write(app, exporting, film ?? null).finally(() => setBusy(false));
   };
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
+      event.preventDefault();
+      void save();
+    };
+    window.addEventListener('keydown', onKey);
+    return () => window.removeEventListener('keydown', onKey);
+  });
   return (
     <>
       <ExportFaults state={state} />
       {lack ? <div class="sheet-text">{lack}</div> : <ExportPreview state={state} film={film} />}
       <div class="sheet-buttons export-write">
         {/* Keys reach it, and stay on it, also while there is nothing to write yet. */}
-        <button type="button" class="button primary" aria-disabled={isOff} onClick={() => void save()}>
+        <button type="button" class="button primary" aria-disabled={isOff} aria-keyshortcuts="Control+Enter" title="Ctrl + Enter" onClick={() => void save()}>
           {later.exporting.write(name)}
         </button>
       </div>

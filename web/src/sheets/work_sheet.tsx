@@ -5,6 +5,7 @@ import { cellOf } from '../document/types';
 import { poseKeys } from '../results/keys';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
+import { byArrows } from '../controls/radios';
 import { CellSigns, detailsOf, lookOf } from '../strip/cell_row';
 
 /** Every frame and component with what is done and what somebody said of it, filtered. */
@@ -16,9 +17,9 @@ export function WorkSheet({ state }: { state: State }) {
   const { work } = texts;
   return (
     <div class="sheet-body">
-      <div class="filters" role="radiogroup" aria-label={work.filterGroup}>
+      <div class="filters" role="radiogroup" aria-label={work.filterGroup} onKeyDown={byArrows}>
         {FILTERS.map((name) => (
-          <button key={name} type="button" role="radio" class="button small" aria-checked={filter === name} onClick={() => setFilter(name)}>
+          <button key={name} type="button" role="radio" class="button small" aria-checked={filter === name} tabIndex={filter === name ? 0 : -1} onClick={() => setFilter(name)}>
             {work.filter(work.filters[name], entries.filter((entry) => passes(entry, name)).length)}
           </button>
         ))}

@@ -183,7 +183,7 @@ function Command({ command, label, name, title, keys, icon, disabled, opens }: C
   return (
     <button type="button" class="button small" aria-label={name ?? label} aria-keyshortcuts={keys} title={title ?? label} disabled={disabled} {...dialog} onClick={() => actions.run({ name: 'tracing', command })}>
       {icon && <Icon name={icon} />}
-      {label}
+      <span class={icon && 'word'}>{label}</span>
     </button>
   );
 }

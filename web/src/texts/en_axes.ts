@@ -27,6 +27,7 @@ export const axes = {
   anterior: 'Anterior',
   superior: 'Superior',
   third: (word: string) => `to the patient’s right: ${word}`,
+  choose: 'To say others, choose both.',
   skew: 'These two lie along one line: choose another.',
   use: 'Use these axes',
   reset: 'As its shape tells',
