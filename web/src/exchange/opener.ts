@@ -2,7 +2,7 @@ import { type Decoded, decodeFrames, holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
 import { asSentence, ended } from '../texts/sentences';
-import { lookedAt, TOLD } from './reading';
+import { lookedAt, saidWhereLarge, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { droppedIn } from '../document/found_anew';
 import { readDistortionFile } from '../document/distortion';
@@ -40,6 +40,7 @@ interface Recognised extends Incoming {
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
   const { store } = services;
   const before = cameraKey(services);
+  await saidWhereLarge(store, files);
   const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];

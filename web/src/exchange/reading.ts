@@ -29,6 +29,20 @@ const FEW = 8;
 /** Whoever waits is told after so many: of thousands each takes a moment. */
 export const TOLD = 16;
 
+/** Reading this much is not over at once, bytes. */
+const LARGE = 8e6;
+
+/** A page that is in view has painted by then, ms; one that is not would wait for ever for its next picture. */
+const PAINTED = 50;
+
+/** Says that there is much to read, and has it shown first: what comes next may hold the page. */
+export async function saidWhereLarge(store: Store, files: readonly Incoming[]): Promise<void> {
+  const bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
+  if (bytes < LARGE) return;
+  store.show({ notice: { kind: 'info', text: texts.files.readingMuch(Math.round(bytes / 1e6)), at: Date.now() } });
+  await new Promise((resolve) => setTimeout(resolve, PAINTED));
+}
+
 /** The files with what `look` tells of each, one after the other; throws `Aborted` when it is called off. */
 export async function lookedAt<T>(store: Store, files: readonly Incoming[], look: (file: Incoming) => Promise<T>): Promise<T[]> {
   if (files.length <= FEW) return Promise.all(files.map(look));

@@ -83,7 +83,7 @@ function Contents({ state }: { state: State }) {
       {lack ? <div class="sheet-text">{lack}</div> : <ExportPreview state={state} film={film} />}
       <div class="sheet-buttons export-write">
         {/* Keys reach it, and stay on it, also while there is nothing to write yet. */}
-        <button type="button" class="button primary" aria-disabled={isOff} aria-keyshortcuts="Control+Enter" title="Ctrl + Enter" onClick={() => void save()}>
+        <button type="button" class="button primary" aria-disabled={isOff} aria-keyshortcuts="Control+Enter" title={later.exporting.writeKey} onClick={() => void save()}>
           {later.exporting.write(name)}
         </button>
       </div>

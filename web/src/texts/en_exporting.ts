@@ -45,6 +45,7 @@ export const exporting = {
   preview: 'Preview',
   making: 'Being made …',
   write: (name: string) => `Save ${name}`,
+  writeKey: 'Ctrl + Enter',
   saved: (name: string) => `Saved ${name}.`,
   called: (name: string) => `Called off: ${name} was not written.`,
   nothing: {

@@ -3,6 +3,7 @@ export const files = {
   folder: 'Open a folder',
   folderTitle: 'Open all of a folder: frames, models, calibration, masks, whatever it holds',
   reading: 'Reading files',
+  readingMuch: (megabytes: number) => `Reading ${megabytes} MB ...`,
   files: 'files',
   leftOut: (count: number, names: string) => `${count === 1 ? 'One file was' : `${count} files were`} not recognised and left out: ${names}.`,
   andMore: (count: number) => `${count} more`,
