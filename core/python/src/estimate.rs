@@ -175,6 +175,7 @@ impl OtherComponent {
         Beside {
             role: self.role,
             poses: self.poses.clone(),
+            doubtful: Vec::new(),
             model: self.model.as_ref().map(|model| model.as_model()),
         }
     }

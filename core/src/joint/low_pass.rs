@@ -3,7 +3,8 @@
 //! A second-order filter forwards and backwards, which is of fourth order and has no lag; its own cutoff is corrected so that
 //! the two passes together halve the power at the cutoff that was asked for (Winter, *Biomechanics and Motor Control of Human
 //! Movement*, section 3.4). Every unbroken run of frames is filtered by itself, continued at its ends by its own point
-//! reflection, as `scipy.signal.filtfilt` does.
+//! reflection, as `scipy.signal.filtfilt` does, about the line through both ends, which stays as it is: a run that is shorter
+//! than the filter remembers is not drawn towards either end.
 
 use thiserror::Error;
 
@@ -115,14 +116,22 @@ impl LowPass {
         let periods = BEYOND * self.frames_per_s / self.cutoff_hz;
         let beyond = (periods as usize).min(run.len() - 1);
         let whole = &mut memory[..run.len() + 2 * beyond];
-        whole[beyond..][..run.len()].copy_from_slice(run);
+        // The line through both ends passes any filter without phase as it is. Without it a run that is shorter than the filter's
+        // memory would not: what goes before it and behind it is only as long as the run.
+        let slope = (last - first) / (run.len() - 1).max(1) as f64;
+        let line = |at: usize| first + slope * at as f64;
+        for (at, value) in run.iter().enumerate() {
+            whole[beyond + at] = value - line(at);
+        }
         for k in 0..beyond {
-            whole[k] = 2.0 * first - run[beyond - k];
-            whole[beyond + run.len() + k] = 2.0 * last - run[run.len() - 2 - k];
+            whole[k] = -whole[2 * beyond - k];
+            whole[beyond + run.len() + k] = -whole[beyond + run.len() - 2 - k];
         }
         self.pass(whole.iter_mut());
         self.pass(whole.iter_mut().rev());
-        run.copy_from_slice(&whole[beyond..][..run.len()]);
+        for (at, value) in run.iter_mut().enumerate() {
+            *value = whole[beyond + at] + line(at);
+        }
     }
 
     /// One pass, as if all before the first number had been as it is.

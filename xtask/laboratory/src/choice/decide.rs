@@ -37,6 +37,12 @@ impl Decision {
         let pose = self.pose()?;
         Some(Lying::new(pose, self.chosen.covariance.as_ref()))
     }
+
+    /// The pose where it is to be relied on: what is doubtful itself rules out no pose of the other component.
+    pub fn reliable(&self) -> Option<Pose> {
+        let is_good = matches!(self.verdict, Verdict::Good);
+        is_good.then_some(self.chosen.pose)
+    }
 }
 
 /// A sentence without its full stop.

@@ -39,6 +39,8 @@ pub struct Beside<'p> {
     pub role: Role,
     /// The other's poses, a row a frame.
     pub poses: Vec<Option<Pose>>,
+    /// Rows of those that are doubtful: they rule out no pose.
+    pub doubtful: Vec<usize>,
     /// The other's model: tilts are then taken in the axes that both shapes tell, else in those of the files.
     pub model: Option<Model<'p>>,
 }
@@ -118,8 +120,11 @@ impl Beside<'_> {
             Some(model) => shape_axes(model, self.role.other())?,
             None => Pose::IDENTITY,
         };
-        let against = |row: &Option<Pose>| row.map(|pose| self.role.against(pose.compose(&axes)));
-        Ok(self.poses.iter().map(against).collect())
+        let against = |(row, pose): (usize, &Option<Pose>)| {
+            let reliable = pose.filter(|_| !self.doubtful.contains(&row));
+            reliable.map(|pose| self.role.against(pose.compose(&axes)))
+        };
+        Ok(self.poses.iter().enumerate().map(against).collect())
     }
 
     /// Doubts poses where both components lie beside each other as in no knee. Without the other's model that is not known.

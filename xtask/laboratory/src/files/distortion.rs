@@ -1,5 +1,6 @@
 //! Corrections of distortion as files: the same JSON that the page saves and opens.
 
+use std::cell::OnceCell;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -124,20 +125,28 @@ pub fn read_distortion(path: &Path) -> Result<Distortion> {
 /// Where each pixel of the straight frames is in the frames as taken: the same for all frames of a correction.
 #[derive(Debug)]
 pub struct Undistorter {
-    map: Vec<[f32; 2]>,
-    size: (usize, usize),
+    distortion: Distortion,
+    map: OnceCell<Vec<[f32; 2]>>,
 }
 
 impl Undistorter {
-    /// Works the places out.
+    /// Of frames that are yet to come: the first of the correction's size takes the memory, whatever size a file claims.
     #[must_use]
-    pub fn new(distortion: &Distortion) -> Self {
-        let size = distortion.size();
-        let mut map = vec![[0.0; 2]; size.0 * size.1];
-        for (row, out) in map.chunks_exact_mut(size.0).enumerate() {
-            map_row(distortion, row, out);
+    pub fn new(distortion: Distortion) -> Self {
+        Self {
+            distortion,
+            map: OnceCell::new(),
         }
-        Self { map, size }
+    }
+
+    fn map(&self, (width, height): (usize, usize)) -> &[[f32; 2]] {
+        self.map.get_or_init(|| {
+            let mut map = vec![[0.0; 2]; width * height];
+            for (row, out) in map.chunks_exact_mut(width).enumerate() {
+                map_row(&self.distortion, row, out);
+            }
+            map
+        })
     }
 
     /// The straight frame, row by row.
@@ -145,21 +154,19 @@ impl Undistorter {
     /// # Errors
     /// When the frame has another size than the correction is for.
     pub fn straight<P: Pixel>(&self, pixels: &[P], size: (usize, usize)) -> Result<Vec<P>> {
+        let wanted = self.distortion.size();
         ensure!(
-            size == self.size,
+            size == wanted,
             "the frame has {} x {} pixels and the correction is for {} x {}",
             size.0,
             size.1,
-            self.size.0,
-            self.size.1
+            wanted.0,
+            wanted.1
         );
         let frame = Frame::new(pixels, size.0, size.1, size.0)?;
         let mut out = vec![P::default(); pixels.len()];
-        for (places, row) in self
-            .map
-            .chunks_exact(size.0)
-            .zip(out.chunks_exact_mut(size.0))
-        {
+        let places = self.map(size).chunks_exact(size.0);
+        for (places, row) in places.zip(out.chunks_exact_mut(size.0)) {
             resample_row(&frame, places, row);
         }
         Ok(out)

@@ -177,22 +177,38 @@ fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
     Ok(films.into_iter().map(group).collect())
 }
 
-/// The rows of all `track.csv` that are not good, with the study before them.
+/// The rows of all `track.csv` that are not good, with the study before them, and joints that are doubtful though no pose is.
 fn doubtful(done: &[Done<'_>], results: &Path) -> Result<String> {
     let mut out = String::from("study,frame,component,state,verdict,because\n");
     for Done { entry, .. } in done {
-        let path = results.join(&entry.name).join("track.csv");
+        let folder = results.join(&entry.name);
+        let path = folder.join("track.csv");
+        let mut told = BTreeSet::new();
         for line in read_text(&path)?.lines().skip(1) {
             let fields = csv_fields(line);
             let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
                 bail!("{}: a row is cut off", path.display());
             };
             if verdict != "good" {
+                told.insert(frame.clone());
                 let texts = [&entry.name, component, because];
                 let [study, component, because] = texts.map(|text| quoted(plain(text)));
                 out.push_str(&format!(
                     "{study},{frame},{component},{state},{verdict},{because}\n"
                 ));
+            }
+        }
+        let joint = folder.join(JOINT);
+        if !joint.is_file() {
+            continue;
+        }
+        let film = read::film(&read_text(&joint)?);
+        let film = film.with_context(|| format!("in {}", joint.display()))?;
+        for row in film.rows.iter().filter(|row| row.joint.is_some()) {
+            let frame = row.number.to_string();
+            if let Some(doubt) = row.doubt.as_ref().filter(|_| !told.contains(&frame)) {
+                let [study, because] = [&entry.name, doubt].map(|text| quoted(plain(text)));
+                out.push_str(&format!("{study},{frame},\"joint\",,doubtful,{because}\n"));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Verb `pose`: the pose of an implant in each mask of a folder.
 
+mod other;
+
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
@@ -7,17 +9,17 @@ use fluoropose::finder::Candidate;
 use fluoropose::finder::choice::DECISIVE_RATIO;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::EulerPose;
 use fluoropose_report::plus_minus;
 
 use crate::exit;
 
 use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report};
-use crate::choice::{Beside, Decision, Posed, Posing, Reasons};
+use crate::choice::{Decision, Posed, Posing, Reasons};
 
 use crate::files::{
-    Role, name_of, read, read_calibration, read_model_and_remarks_of, read_model_of, read_poses,
-    shape_doubt, size_taken, write_poses,
+    Role, name_of, read, read_calibration, read_model_and_remarks_of, shape_doubt, size_taken,
+    write_poses,
 };
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
@@ -27,6 +29,8 @@ use crate::noise::DisturbanceOptions;
 use crate::progress::Stop;
 
 use crate::sequence::{Folders, Source};
+
+use other::Other;
 
 /// Options of `pose`.
 #[derive(clap::Args)]
@@ -70,7 +74,7 @@ pub struct Args {
     /// Which component this is; needed for --counterpart
     #[arg(long, value_enum, requires = "counterpart")]
     role: Option<Role>,
-    /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart
+    /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart; those that the table beside the file calls doubtful tell nothing
     #[arg(long, value_name = "FILE", requires = "role")]
     counterpart: Option<PathBuf>,
     /// The other component's model: the tilt is then taken in the axes that both shapes tell, else in those of the files
@@ -169,45 +173,6 @@ fn say(posed: &Posed, rows: &[FrameReport], middle: &Vector3) {
         describe(frame, decision.as_ref(), row, middle);
     }
     println!("chosen by: {}", Reasons::of(decisions));
-}
-
-/// The other component, as files tell it.
-struct Other {
-    role: Role,
-    poses: Vec<Option<Pose>>,
-    model: Option<OwnedModel>,
-}
-
-impl Other {
-    /// None where no poses of it were given; they are as many as there are frames.
-    fn read(args: &Args, frames: usize) -> Result<Option<Self>> {
-        let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
-            return Ok(None);
-        };
-        let poses = read_poses(path)?;
-        if poses.len() != frames {
-            bail!(
-                "{} has {} poses but there are {frames} masks; both must be of the same frames",
-                path.display(),
-                poses.len()
-            );
-        }
-        let model = args.counterpart_model.as_ref();
-        let model = model.map(|file| read_model_of(file, Some(role.other())));
-        Ok(Some(Self {
-            role,
-            poses,
-            model: model.transpose()?,
-        }))
-    }
-
-    fn beside(&self) -> Beside<'_> {
-        Beside {
-            role: self.role,
-            poses: self.poses.clone(),
-            model: self.model.as_ref().map(OwnedModel::as_model),
-        }
-    }
 }
 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.

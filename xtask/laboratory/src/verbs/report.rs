@@ -98,6 +98,15 @@ pub struct Reported {
     remarks: Vec<String>,
 }
 
+impl Reported {
+    /// Frames whose joint is doubtful, from 0.
+    pub fn doubtful_frames(&self) -> impl Iterator<Item = usize> {
+        let rows = self.film.rows.iter();
+        let doubtful = rows.filter(|row| row.joint.is_some() && row.doubt.is_some());
+        doubtful.map(|row| row.number - 1)
+    }
+}
+
 /// Writes the files of a study; what they are made from comes back.
 ///
 /// # Errors

@@ -44,7 +44,8 @@ Frames stand in the order of their files' names, numbers by their value: f2 befo
 Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv, COMPONENT.covariances.csv, film.csv (the constants of the \
 film, in pixels of the file, and square_px: the side of the squares of pixels that it is read in, 1 unless pixels are much finer than the blur), found_with.csv (digests of \
 calibration and models: `report` says where they are others since), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
-and after other clicks or fixed poses only what lies between them is done again.\n\n\
+and after other clicks or fixed poses only what lies between them is done again, with the constants of the film as the folder's first run told them: what they come to with \
+other poses, --anew tells.\n\n\
 track.csv: frame, component, state, verdict (good, doubtful or none), because (the reason of both), the six numbers and one standard deviation of each (sd_*), misfit_px (what remains between the model's outline and the edges \
 of the frame, in pixels of the file), badness (how much speaks against the pose: above 1 it is doubtful), file (the name of the frame's file) and frame_of_file (the frame's \
 number in it, from 1).\n\n\

@@ -89,6 +89,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
         }),
         stop: Stop::default(),
     })?;
+    let mut doubtful = doubtful_frames(&tracked);
     if study.is_knee() {
         let of_study = report::Args {
             study: Some(entry.study.clone()),
@@ -99,11 +100,13 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
             cutoff: settings.cutoff_hz,
             overlay: false,
         };
-        report(&entry.study, &of_study)?;
+        // What no knee does shows in no pose alone.
+        let reported = report(&entry.study, &of_study)?;
+        doubtful.extend(reported.doubtful_frames());
     }
     // It says how far an unfinished run has come, in the order in which threads came there.
     std::fs::remove_file(aside.join("journal.txt"))?;
-    Ok((frames_of(&tracked), doubtful_frames(&tracked)))
+    Ok((frames_of(&tracked), doubtful.len()))
 }
 
 fn rehearse(aside: &Path, inputs: &Inputs) -> Result<(usize, usize)> {

@@ -118,7 +118,8 @@ pub(super) fn find_parts<'s>(
             continue;
         };
         let poses = part.found.iter().map(|found| {
-            let poses = found.poses().into_iter();
+            let reliable = |decision: &Option<Decision>| decision.as_ref()?.reliable();
+            let poses = found.decisions.iter().map(reliable);
             let poses = poses.map(|pose| pose.map(|pose| pose.compose(&axes)));
             (found.source.clone(), poses.collect())
         });
@@ -169,7 +170,7 @@ fn sources_of(parts: &[Part<'_>]) -> BTreeSet<String> {
 }
 
 impl Found {
-    /// Chooses tibial poses with the femoral ones of a source known, those in the field's axes.
+    /// Chooses tibial poses with the femoral ones of a source known that are to be relied on, those in the field's axes.
     fn decide_with(&mut self, femurs: &[(String, Vec<Option<Pose>>)], axes: &Pose) -> Result<()> {
         let fitting = || {
             femurs

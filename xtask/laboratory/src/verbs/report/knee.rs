@@ -111,7 +111,6 @@ impl<'s> Knee<'s> {
             .map(|frame| self.relative(sources, frame))
             .collect();
         let mut memory = vec![0; self.joint.memory_needed()];
-        let filtered = self.filtered(&relative, filtering, &mut memory)?;
         let beside = self
             .middles
             .judge_poses(&lying(&sources.femur), &lying(&sources.tibia));
@@ -123,11 +122,19 @@ impl<'s> Knee<'s> {
             };
             let row = JointRow::new(frame + 1, joint, sources.doubts.get(&frame).cloned());
             rows.push(JointRow {
-                filtered: filtered.get(frame).copied().flatten(),
                 checked: sources.checked.contains(&frame),
                 accepted: sources.accepted.get(&frame).cloned(),
                 ..row.lying(beside.get(frame).copied().flatten())
             });
+        }
+        // A doubtful pose would bend what is good around it.
+        let counts = |(relative, row): (&Option<Relative>, &JointRow)| {
+            relative.filter(|_| row.doubt.is_none())
+        };
+        let relied: Vec<Option<Relative>> = relative.iter().zip(&rows).map(counts).collect();
+        let filtered = self.filtered(&relied, filtering, &mut memory)?;
+        for (row, filtered) in rows.iter_mut().zip(filtered) {
+            row.filtered = filtered;
         }
         let mut outline = vec![[0.0; 2]; BORDER];
         self.joint.plate_outline(&mut outline);

@@ -6,9 +6,11 @@ use fluoropose::film::{FilmEstimate, FilmModel, FilmPool, FilmProfile, SquareCho
 use fluoropose::follow::{Anchor, FilmReading};
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
+use sha2::{Digest, Sha256};
 
+use super::follow::mark;
 use super::part::Part;
-use super::record::Films;
+use super::record::{Films, LearntFrom};
 use super::run::Run;
 use crate::finding::{Stated, in_squares};
 
@@ -47,10 +49,29 @@ pub(super) fn learn_film(
         let films: Option<Vec<_>> = (0..parts.len()).map(models).collect();
         Ok(Films(films.unwrap_or_default()))
     })?;
+    let from = learnt_from(anchors);
+    if run.journal.step("film/from", || Ok(learnt_from(anchors)))? != from {
+        run.say(
+            "film: its constants are those of this folder's first run, from other clicks or fixed poses; --anew estimates them anew"
+                .to_owned(),
+        );
+    }
     for (part, film) in parts.iter().zip(films.0) {
         part.set_film(film);
     }
     Ok(())
+}
+
+fn learnt_from(anchors: &[Vec<Anchor>]) -> LearntFrom {
+    let mut hash = Sha256::new();
+    for part in anchors {
+        hash.update([0]);
+        part.iter().for_each(|anchor| hash.update(mark(anchor)));
+    }
+    let [a, b, c, d, ..] = hash.finalize()[..] else {
+        return LearntFrom(0);
+    };
+    LearntFrom(u32::from_le_bytes([a, b, c, d]))
 }
 
 /// Whether the constants, as they were learnt from the frames around the anchors, are others by frames that were followed since and are good, and

@@ -1,5 +1,6 @@
 //! All components of a film, from what is given to the files.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
 
@@ -71,9 +72,9 @@ impl Tracked {
     }
 }
 
-/// Frames in which a component is not known well.
+/// Frames in which a component is not known well, from 0.
 #[must_use]
-pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
+pub fn doubtful_frames(tracked: &[Tracked]) -> BTreeSet<usize> {
     let good = |part: &Tracked, frame: usize| {
         let row = part.rows.get(frame);
         row.is_some_and(|row| row.verdict() == "good")
@@ -81,7 +82,7 @@ pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
     let frames = tracked.iter().map(|part| part.rows.len()).max();
     (0..frames.unwrap_or(0))
         .filter(|&frame| !tracked.iter().all(|part| good(part, frame)))
-        .count()
+        .collect()
 }
 
 /// Follows the components of a study through its film.
@@ -238,10 +239,14 @@ fn digest(
     for (model, component) in models.iter().zip(&study.components) {
         inputs.update(model.as_model().digest());
         inputs.update(format!(
-            "{:?}{:?}",
-            component.nominal, component.distance_mm
+            "{:?}{:?}{:?}{:?}",
+            component.nominal,
+            component.distance_mm,
+            component.axes,
+            component.role()
         ));
     }
+    inputs.update(format!("{:?}", study.side));
     inputs.update([match request.polarity {
         Some(Polarity::DarkImplant) => 0,
         Some(Polarity::BrightImplant) => 1,

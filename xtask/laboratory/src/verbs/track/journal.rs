@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
@@ -33,14 +33,20 @@ impl Journal {
     pub(super) fn open(path: &Path, inputs: &str, anew: bool, stop: Stop) -> Result<Self> {
         let heading = format!("{HEADING} {inputs}\n");
         let named = || format!("cannot write {}", path.display());
-        let text = match anew {
-            true => String::new(),
-            false => std::fs::read_to_string(path).unwrap_or_default(),
+        let bytes = match std::fs::read(path) {
+            _ if anew => Vec::new(),
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            Err(error) => {
+                return Err(error).with_context(|| format!("cannot read {}", path.display()));
+            }
         };
-        // What was cut off while it was written is done again.
-        let whole = text.rfind('\n').map_or(0, |end| end + 1);
-        let text = &text[..whole];
-        if !text.is_empty() && !text.starts_with(&heading) {
+        // What was cut off while it was written is done again, and so is a step whose line is damaged.
+        let end = bytes.iter().rposition(|&byte| byte == b'\n');
+        let whole = end.map_or(0, |end| end + 1);
+        let text = String::from_utf8_lossy(&bytes[..whole]);
+        let is_cut = whole == 0 && heading.as_bytes().starts_with(&bytes);
+        if !is_cut && !text.starts_with(&heading) {
             bail!(
                 "{} is of other frames, models or settings: choose another folder, or begin anew with --anew",
                 path.display()
@@ -93,4 +99,45 @@ fn parse(line: &str) -> Option<(String, Vec<f64>)> {
     let number = |word: &str| u64::from_str_radix(word, 16).ok().map(f64::from_bits);
     let numbers: Option<Vec<f64>> = words.map(number).collect();
     Some((key.to_owned(), numbers?))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    /// Of a file with these bytes; the file's path.
+    fn opened(name: &str, bytes: &[u8]) -> (Result<Journal>, PathBuf) {
+        let name = format!("fluoropose-journal-{name}-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        (Journal::open(&path, "inputs", false, Stop::default()), path)
+    }
+
+    #[test]
+    fn what_is_no_journal_is_refused_and_stays() {
+        for notes in [
+            &b"My notes"[..],
+            b"My notes of M\xfcller\n",
+            b"fluoropose-track-1 inputs\n",
+        ] {
+            let (journal, path) = opened("notes", notes);
+            assert!(journal.is_err());
+            assert_eq!(std::fs::read(&path).unwrap(), notes);
+        }
+    }
+
+    #[test]
+    fn a_damaged_line_costs_its_own_step_alone() {
+        let heading = format!("{HEADING} inputs\n");
+        // Cut off within its first line it begins anew.
+        let (_, path) = opened("cut", &heading.as_bytes()[..9]);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), heading);
+        let mut bytes = format!("{heading}a 0\nb 0\n").into_bytes();
+        bytes[heading.len() + 2] = 0xfc;
+        let (journal, _) = opened("damaged", &bytes);
+        let done = journal.unwrap().done;
+        assert!(!done.contains_key("a") && done.contains_key("b"));
+    }
 }

@@ -158,6 +158,23 @@ impl Record for Looked {
     }
 }
 
+/// Which poses something was learnt from.
+#[derive(PartialEq, Eq)]
+pub(super) struct LearntFrom(pub(super) u32);
+
+impl Record for LearntFrom {
+    fn numbers(&self) -> Vec<f64> {
+        vec![f64::from(self.0)]
+    }
+
+    fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        match *numbers {
+            [mark] => Some(Self(mark as u32)),
+            _ => None,
+        }
+    }
+}
+
 /// The blur that profiles tell, where they tell one.
 pub(super) struct Blur(pub(super) Option<f64>);
 

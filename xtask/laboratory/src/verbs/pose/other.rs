@@ -1,0 +1,85 @@
+//! The other component of the knee, as the command line names it.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use fluoropose::mesh::OwnedModel;
+use fluoropose::pose::Pose;
+
+use super::Args;
+use crate::choice::Beside;
+use crate::files::{Role, States, read_model_of, read_poses};
+
+/// The other component, as files tell it.
+pub(super) struct Other {
+    role: Role,
+    poses: Vec<Option<Pose>>,
+    doubtful: Vec<usize>,
+    model: Option<OwnedModel>,
+}
+
+impl Other {
+    /// None where no poses of it were given; they are as many as there are frames.
+    pub(super) fn read(args: &Args, frames: usize) -> Result<Option<Self>> {
+        let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
+            return Ok(None);
+        };
+        let poses = read_poses(path)?;
+        if poses.len() != frames {
+            bail!(
+                "{} has {} poses but there are {frames} masks; both must be of the same frames",
+                path.display(),
+                poses.len()
+            );
+        }
+        let doubtful = doubtful_rows(path, &poses)?;
+        let model = args.counterpart_model.as_ref();
+        let model = model.map(|file| read_model_of(file, Some(role.other())));
+        Ok(Some(Self {
+            role,
+            poses,
+            doubtful,
+            model: model.transpose()?,
+        }))
+    }
+
+    pub(super) fn beside(&self) -> Beside<'_> {
+        Beside {
+            role: self.role,
+            poses: self.poses.clone(),
+            doubtful: self.doubtful.clone(),
+            model: self.model.as_ref().map(OwnedModel::as_model),
+        }
+    }
+}
+
+/// Rows of a pose file that the table beside it calls doubtful; what a person accepted is not.
+fn doubtful_rows(file: &Path, poses: &[Option<Pose>]) -> Result<Vec<usize>> {
+    let name = file.file_stem().and_then(OsStr::to_str);
+    let (Some(folder), Some(name)) = (file.parent(), name) else {
+        return Ok(Vec::new());
+    };
+    let states = States::beside(folder, &[(name, poses)])?.unwrap_or_default();
+    let has_pose = |row: usize| poses.get(row).is_some_and(Option::is_some);
+    let all = states.all.iter().filter(|state| has_pose(state.row));
+    let doubtful = all.filter(|state| !state.is_good());
+    let rows: Vec<usize> = doubtful.map(|state| state.row).collect();
+    if !rows.is_empty() {
+        let (count, tables) = (
+            rows.len(),
+            states
+                .tables
+                .iter()
+                .map(|table| table.display().to_string()),
+        );
+        let tables: Vec<String> = tables.collect();
+        println!(
+            "{count} of the {} poses in {} decide nothing: {} does not call them good",
+            poses.len(),
+            file.display(),
+            tables.join(", ")
+        );
+    }
+    Ok(rows)
+}
