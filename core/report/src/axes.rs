@@ -49,7 +49,8 @@ impl Scale {
     }
 
     pub(crate) fn marks(&self) -> impl Iterator<Item = (f64, String)> {
-        let places = if self.step < 1.0 { 1 } else { 0 };
+        // As many as tell its marks apart.
+        let places = (-self.step.log10().floor()).clamp(0.0, 9.0) as usize;
         let Self { step, .. } = *self;
         // Ends that are marks themselves are so up to rounding.
         let first = (self.low / step - 1e-6).ceil() as i32;

@@ -152,10 +152,11 @@ pub fn table(text: &str) -> Result<Table, ReadError> {
 pub fn film(text: &str) -> Result<JointFilm, ReadError> {
     let table = table(text)?;
     let mut film = JointFilm {
-        name: stated(text, "study: ", "; knee: ")
+        name: study_and_knee(text)
+            .map(|(study, _)| study)
             .ok_or(ReadError::Kind("joint table"))?
             .to_owned(),
-        side: match stated(text, "; knee: ", ";") {
+        side: match study_and_knee(text).and_then(|(_, knee)| knee.split(';').next()) {
             Some("left") => Side::Left,
             Some("right") => Side::Right,
             _ => return Err(ReadError::Kind("joint table")),
@@ -233,6 +234,13 @@ fn stated<'t>(text: &'t str, before: &str, after: &str) -> Option<&'t str> {
     let heading = text.lines().take_while(|line| line.starts_with('#'));
     let mut rests = heading.filter_map(|line| Some(line.split_once(before)?.1));
     rests.next()?.split_once(after).map(|(stated, _)| stated)
+}
+
+/// What the heading says of the study, and from the knee on. A study may have any name.
+fn study_and_knee(text: &str) -> Option<(&str, &str)> {
+    let heading = text.lines().take_while(|line| line.starts_with('#'));
+    let mut rests = heading.filter_map(|line| line.strip_prefix("# study: "));
+    rests.next()?.rsplit_once("; knee: ")
 }
 
 fn millimetres(text: &str, before: &str, after: &str) -> f64 {

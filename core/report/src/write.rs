@@ -23,16 +23,25 @@ pub enum WriteError {
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
 
-/// What the heading of every file says that may have one.
+/// What the heading of a table says.
 fn heading(film: &JointFilm) -> Vec<String> {
-    let side = film.side;
     let filter = match film.cutoff_hz.zip(film.frames_per_s) {
         Some((cutoff, rate)) => format!(
             "filter: columns filtered_* are those of poses filtered by a zero-lag Butterworth filter of fourth order, {cutoff} Hz at {rate} frames a second, rotations on the group, each unbroken run by itself; all others are as found"
         ),
         None => "filter: none".to_owned(),
     };
-    let mut lines = vec![
+    let mut lines = numbers_heading(film);
+    lines.push("checked: 1 where a person has checked both poses as they are".to_owned());
+    lines.push(filter);
+    lines.extend(film.told().iter().map(|told| in_heading(told)));
+    lines
+}
+
+/// What there is to say of the numbers, whatever columns stand beside them.
+fn numbers_heading(film: &JointFilm) -> Vec<String> {
+    let side = film.side;
+    vec![
         format!("fluoropose {}, joint table version 1", env!("CARGO_PKG_VERSION")),
         format!("study: {}; knee: {side}; frames are numbered as in the film, from 1; NaN where a component has no pose", in_heading(&film.name)),
         "units: mm, degrees (deg), percent of the tray's anterior-posterior extent from its posterior border".to_owned(),
@@ -41,11 +50,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
         format!("field_*, gs_*: {ORIGINS}"),
         "medial_*, lateral_*: lowest points of the femoral component above the tray's plate, from the plate's middle, anterior and medial positive; lift_off: lateral less medial height".to_owned(),
         format!("tray: {} mm deep, {} mm wide", film.plate_depth_mm, film.plate_width_mm),
-        "checked: 1 where a person has checked both poses as they are".to_owned(),
-        filter,
-    ];
-    lines.extend(film.told().iter().map(|told| in_heading(told)));
-    lines
+    ]
 }
 
 /// The table of a film: every number of every frame, with standard deviations, the probability of lift-off, and what is doubtful.
@@ -102,7 +107,7 @@ fn seconds(film: &JointFilm, row: &JointRow) -> Option<f64> {
     Some((row.number as f64 - 1.0) / rate)
 }
 
-/// OpenSim's `.mot`: time first, then all numbers.
+/// OpenSim's `.mot`: time first, then all numbers. It has no column of words: its heading says which rows are doubtful, and why.
 ///
 /// # Errors
 /// [`WriteError::NoTimes`].
@@ -114,7 +119,9 @@ pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
         out,
         "{name}\nversion=1\nnRows={rows}\nnColumns={columns}\ninDegrees=yes\n"
     );
-    for line in heading(film) {
+    let told = film.told().into_iter().chain(doubts_by_time(film));
+    let told = told.map(|told| in_heading(&told));
+    for line in numbers_heading(film).into_iter().chain(told) {
         let _ = writeln!(out, "# {line}");
     }
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
@@ -128,6 +135,17 @@ pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
         out.push('\n');
     }
     Ok(out)
+}
+
+fn doubts_by_time(film: &JointFilm) -> impl Iterator<Item = String> {
+    let doubtful = film.rows.iter().filter(|row| row.joint.is_some());
+    doubtful.filter_map(|row| {
+        let (time, doubt) = (seconds(film, row)?, row.doubt.as_ref()?);
+        Some(format!(
+            "doubtful: time {time}, frame {}: {doubt}",
+            row.number
+        ))
+    })
 }
 
 /// That of a film, or of several in whose order rows stand.

@@ -33,6 +33,16 @@ pub enum CalibrationError {
         /// What was expected.
         name: &'static str,
     },
+    /// A line is not the heading that is expected there.
+    #[error(
+        "line {line} of the calibration is not the heading '{name}': a camera-matrix file has image size, camera matrix, and rotation and translation or nothing more"
+    )]
+    Heading {
+        /// Line, from 1.
+        line: usize,
+        /// What was expected.
+        name: &'static str,
+    },
     /// The camera matrix has a skew, or its last row is not 0, 0, 1.
     #[error(
         "the camera matrix is not of the form fx,0,cx / 0,fy,cy / 0,0,1; skewed pixels are not supported"
@@ -233,6 +243,7 @@ fn numbers<const N: usize>(
         *value = fields
             .next()
             .and_then(|field| field.parse().ok())
+            .filter(|value: &f64| value.is_finite())
             .ok_or(CalibrationError::Number { line, name })?;
     }
     match fields.next() {
@@ -280,7 +291,10 @@ fn parse_matrix<'a>(
         }
     }
     let mut laboratory = Pose::IDENTITY;
-    if heading(&mut lines, "rotation").is_ok() {
+    let mut lines = lines.peekable();
+    // A file of another form would lose where the camera stands, or its distortion, without a word.
+    if lines.peek().is_some() {
+        heading(&mut lines, "rotation")?;
         laboratory.rotation = next_matrix(&mut lines, "rotation")?;
         if !laboratory.is_rigid(1e-3) {
             return Err(CalibrationError::Rotation);
@@ -334,10 +348,20 @@ fn heading<'a>(
     name: &'static str,
 ) -> Result<(), CalibrationError> {
     match lines.next() {
-        Some((_, text)) if text.eq_ignore_ascii_case(name) => Ok(()),
-        Some((line, _)) => Err(CalibrationError::Number { line, name }),
+        Some((_, text)) if is_heading(text, name) => Ok(()),
+        Some((line, _)) => Err(CalibrationError::Heading { line, name }),
         None => Err(CalibrationError::Missing(name)),
     }
+}
+
+/// Some write it with a colon, or say what it is.
+fn is_heading(text: &str, name: &str) -> bool {
+    let text = text.trim_end_matches(':').trim_end();
+    let (Some(begin), Some(rest)) = (text.get(..name.len()), text.get(name.len()..)) else {
+        return false;
+    };
+    let is_rest = |known: &str| rest.trim_start().eq_ignore_ascii_case(known);
+    begin.eq_ignore_ascii_case(name) && ["", "matrix", "vector"].into_iter().any(is_rest)
 }
 
 fn next_matrix<'a>(

@@ -9,7 +9,7 @@ use core::fmt;
 
 use crate::joint::kinematics::Side;
 use crate::joint::plate::Plate;
-use crate::math::{Decimal, Vector3, apply, dot, sqrt};
+use crate::math::{Decimal, Vector3, apply, deviation, dot, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
@@ -83,7 +83,7 @@ impl Lying {
         let variance = covariance.map_or(0.0, |covariance| covariance.matrix[5][5]);
         Self {
             pose,
-            depth_sd_mm: sqrt(variance.max(0.0)),
+            depth_sd_mm: deviation(variance),
         }
     }
 }

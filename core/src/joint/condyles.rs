@@ -46,14 +46,14 @@ impl Condyles {
     }
 }
 
-/// Probability that the magnitude of a normally distributed number is beyond a threshold.
+/// Probability that the magnitude of a normally distributed number is beyond a threshold; NaN where number or deviation is.
 #[must_use]
 pub fn probability_beyond(value: f64, deviation: f64, threshold: f64) -> f64 {
     let tail = |distance: f64| 0.5 * libm::erfc(distance / (deviation * core::f64::consts::SQRT_2));
-    if deviation > 0.0 {
-        tail(threshold - value) + tail(threshold + value)
-    } else {
+    if deviation == 0.0 && !value.is_nan() {
         f64::from(u8::from(value.abs() > threshold))
+    } else {
+        tail(threshold - value) + tail(threshold + value)
     }
 }
 
@@ -143,7 +143,9 @@ impl<'m> Above<'m> {
             LowestPoint {
                 anterior_mm: self.plate.side.forward() * x,
                 medial_mm: z,
-                height_mm: heights[half],
+                height_mm: Some(heights[half])
+                    .filter(|height| height.is_finite())
+                    .unwrap_or(f64::NAN),
             }
         };
         Condyles {

@@ -128,12 +128,13 @@ impl JointFrame {
     }
 
     /// Probability that one condyle is higher than the other by more than a threshold, mm; 0.7 and 1.0 are in use. `None`
-    /// without a standard deviation.
+    /// without a standard deviation, and where no lift-off is known.
     #[must_use]
     pub fn lift_off_probability(&self, threshold_mm: f64) -> Option<f64> {
         let deviation = self.deviations?[place::LIFT_OFF];
         let lift_off = self.numbers[place::LIFT_OFF];
-        Some(probability_beyond(lift_off, deviation, threshold_mm))
+        let probability = probability_beyond(lift_off, deviation, threshold_mm);
+        Some(probability).filter(|known| !known.is_nan())
     }
 }
 

@@ -67,6 +67,9 @@ impl Plate {
     /// The plate's border as seen from above: points in equal directions from its middle (anterior, then towards medial), each as
     /// anterior and medial place, mm. Of the tray's mesh and axes that [`Self::of`] had. A direction without border has NaN.
     pub fn outline(&self, mesh: &Mesh<'_>, axes: &Pose, outline: &mut [[f64; 2]]) {
+        if outline.is_empty() {
+            return;
+        }
         outline.fill([f64::NAN; 2]);
         let from_model = self.from_tibia.compose(&axes.inverse());
         for face in corners(mesh) {

@@ -2,7 +2,7 @@
 
 use crate::joint::shared::{self, ERRORS, KnownTo, Step};
 use crate::math::{
-    Matrix3, Vector3, add, apply, cross, multiply, rotation_by, sqrt, subtract, transpose,
+    Matrix3, Vector3, add, apply, cross, deviation, multiply, rotation_by, subtract, transpose,
 };
 use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance, congruence};
@@ -114,7 +114,7 @@ impl Relative {
                 .sum()
         };
         Some(Carried {
-            deviations: core::array::from_fn(|n| sqrt(variance(n).max(0.0))),
+            deviations: core::array::from_fn(|n| deviation(variance(n))),
             shared: self
                 .shared
                 .map(|step| core::array::from_fn(|n| along(&step, n))),

@@ -22,6 +22,12 @@ pub fn sqrt(x: f64) -> f64 {
     libm::sqrt(x)
 }
 
+/// The standard deviation of a variance, which rounding may have brought below 0. What is not known (NaN) stays so.
+#[must_use]
+pub fn deviation(variance: f64) -> f64 {
+    if variance < 0.0 { 0.0 } else { sqrt(variance) }
+}
+
 /// Whether the processor divides numbers of 32 bits itself, and has a square root for no safe program.
 const DIVIDES: bool = cfg!(all(target_arch = "arm", target_abi = "eabihf"));
 

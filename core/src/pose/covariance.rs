@@ -1,8 +1,8 @@
 //! Pose uncertainty: the covariance of a pose's six parameters, and of the six numbers in which it is written.
 
 use crate::math::{
-    Vector3, add, apply, cross, degrees, inverse_spd, multiply, multiply_square, rotation_vector,
-    scale, sin_cos, solve_spd, sqrt, subtract, transpose, transpose_square,
+    Vector3, add, apply, cross, degrees, deviation, inverse_spd, multiply, multiply_square,
+    rotation_vector, scale, sin_cos, solve_spd, sqrt, subtract, transpose, transpose_square,
 };
 use crate::pose::{EulerPose, Pose};
 
@@ -98,14 +98,14 @@ impl PoseCovariance {
     #[must_use]
     pub fn deviations(&self, pose: &Pose, middle: &Vector3) -> Deviations {
         let numbers = self.numbers(pose, middle);
-        let deviation = |k: usize| sqrt(numbers[k][k].max(0.0));
+        let of = |k: usize| deviation(numbers[k][k]);
         Deviations {
-            x_mm: deviation(0),
-            y_mm: deviation(1),
-            z_mm: deviation(2),
-            z_rot_deg: deviation(3),
-            x_rot_deg: deviation(4),
-            y_rot_deg: deviation(5),
+            x_mm: of(0),
+            y_mm: of(1),
+            z_mm: of(2),
+            z_rot_deg: of(3),
+            x_rot_deg: of(4),
+            y_rot_deg: of(5),
             rotation_deg: self.rotation_deg(),
         }
     }

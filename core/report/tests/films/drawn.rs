@@ -293,3 +293,42 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
         "{heading}"
     );
 }
+
+/// As it is without models: lift-off and lowest points are not known, nor how well.
+#[test]
+fn what_is_not_known_is_not_drawn() {
+    let mut bare = film(12.0);
+    for joint in bare.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
+        let mut deviations = joint.deviations.unwrap_or([0.5; NUMBERS]);
+        for number in place::MEDIAL_AP..NUMBERS {
+            joint.numbers[number] = f64::NAN;
+            deviations[number] = f64::NAN;
+        }
+        joint.deviations = Some(deviations);
+    }
+    let picture = figure(&bare);
+    assert!(!picture.svg().contains("NaN"));
+    assert!(!String::from_utf8_lossy(&picture.pdf()).contains("NaN"));
+}
+
+#[test]
+fn marks_of_an_axis_differ() {
+    let mut narrow = film(12.0);
+    for (k, row) in narrow.rows.iter_mut().enumerate() {
+        if let Some(joint) = &mut row.joint {
+            joint.numbers[place::ABDUCTION] = 0.3 + 0.002 * k as f64;
+            joint.deviations = None;
+        }
+    }
+    let picture = figure(&narrow).svg();
+    let texts = picture
+        .split("</text>")
+        .filter_map(|text| text.rsplit_once('>'));
+    let labels: Vec<&str> = texts
+        .map(|(_, text)| text)
+        .filter(|text| text.starts_with("0.3"))
+        .collect();
+    let mut distinct = labels.clone();
+    distinct.dedup();
+    assert!(labels.len() > 1 && distinct == labels, "{labels:?}");
+}

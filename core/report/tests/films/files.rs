@@ -296,3 +296,25 @@ fn hostile_names_are_no_formulas_and_leave_the_numbers_alone() {
         );
     }
 }
+
+#[test]
+fn a_study_may_have_any_name() {
+    let mut named = film(12.0);
+    named.side = Side::Right;
+    named.name = "P07; knee: left; lunge".to_owned();
+    let again = read::film(&write::table(&named)).unwrap();
+    assert_eq!((again.name, again.side), (named.name, Side::Right));
+}
+
+#[test]
+fn motion_files_say_which_rows_are_doubtful_and_nothing_of_columns_that_they_do_not_have() {
+    let mut doubted = film(12.0);
+    doubted.frames_per_s = Some(15.0);
+    doubted.rows[2].doubt = Some("a rim".to_owned());
+    let file = write::mot(&doubted).unwrap();
+    assert!(
+        file.contains("# doubtful: time 0.8, frame 13: a rim"),
+        "{file}"
+    );
+    assert!(!file.contains("checked") && !file.contains("filter"));
+}

@@ -65,6 +65,31 @@ fn a_matrix_without_a_laboratory_and_with_a_row_of_translation_is_read() {
 }
 
 #[test]
+fn where_the_camera_stands_is_not_lost_by_another_word() {
+    for heading in ["Rotation:", "rotation matrix", "ROTATION MATRIX :"] {
+        let text = MATRIX.replace("rotation", heading);
+        assert_eq!(
+            Calibration::parse(&text),
+            Calibration::parse(MATRIX),
+            "{heading}"
+        );
+    }
+    for (from, to, words) in [
+        (
+            "rotation",
+            "distortion\r\n0,0,0,0,0\r\n\r\nrotation",
+            "is not the heading 'rotation'",
+        ),
+        ("translation", "origin", "is not the heading 'translation'"),
+        ("3.5", "inf", "the translation, does not hold"),
+        ("3.5", "nan", "the translation, does not hold"),
+    ] {
+        let error = Calibration::parse(&MATRIX.replace(from, to)).expect_err(to);
+        assert!(std::format!("{error}").contains(words), "{error}");
+    }
+}
+
+#[test]
 fn faults_are_named() {
     let parse = |text: &str| {
         Calibration::parse(text)
@@ -79,9 +104,15 @@ fn faults_are_named() {
             "JT_INTCALIB\n1198\nzero\n0\n0.3",
             "line 3 of the calibration, the principal point x",
         ),
-        ("JT_INTCALIB\nNaN\n0\n0\n0.3", "principal distance is NaN"),
+        (
+            "JT_INTCALIB\nNaN\n0\n0\n0.3",
+            "line 2 of the calibration, the principal distance",
+        ),
         ("JT_INTCALIB\n0\n0\n0\n0.3", "principal distance is 0"),
-        ("JT_INTCALIB\n1198\n0\ninf\n0.3", "principal point y is inf"),
+        (
+            "JT_INTCALIB\n1198\n0\ninf\n0.3",
+            "line 4 of the calibration, the principal point y",
+        ),
         ("JT_INTCALIB\n1198\n0\n0\n-0.3", "pixel pitch is -0.3"),
         (
             "image size\n1024,1024\ncamera matrix\n1,2,3",

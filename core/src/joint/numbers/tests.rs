@@ -22,6 +22,51 @@ fn numbers(joint: &Joint<'_>, femur: &Pose, tibia: &Pose) -> [f64; NUMBERS] {
 
 /// Files of other axes, posed so that the knee is the same.
 #[test]
+fn what_is_not_known_has_no_deviation_and_no_probability() {
+    let f = factor(1.0);
+    let place = |(at, turn): ([f64; 3], [f64; 3])| {
+        Placed::new(
+            &pose(at, turn),
+            &Pose::IDENTITY,
+            &[0.0; 3],
+            Some(covariance(&f)),
+        )
+    };
+    let relative = Relative::new(&place(FEMUR), &place(TIBIA), KnownTo::USUALLY);
+    let frame = JointFrame::without_models(&relative, Side::Left);
+    let deviations = frame.deviations.expect("known");
+    assert!(deviations[place::FLEXION] > 0.0 && deviations[place::LIFT_OFF].is_nan());
+    assert_eq!(frame.lift_off_probability(1.0), None);
+    let unknown = PoseCovariance {
+        matrix: [[f64::NAN; 6]; 6],
+    };
+    assert!(unknown.deviations(&Pose::IDENTITY, &[0.0; 3]).z_mm.is_nan());
+    assert!(
+        probability_beyond(0.9, f64::NAN, 1.0).is_nan()
+            && probability_beyond(f64::NAN, 0.0, 1.0).is_nan()
+    );
+    assert_eq!(
+        (
+            probability_beyond(0.9, 0.0, 1.0),
+            probability_beyond(-1.1, 0.0, 1.0)
+        ),
+        (0.0, 1.0)
+    );
+}
+
+#[test]
+fn an_outline_of_no_points_and_half_a_femur_stop_nothing() {
+    let tray = tray();
+    let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+    plate.outline(&tray.mesh(), &Pose::IDENTITY, &mut []);
+    let vertices = [[0.0f32, 0.0, -10.0], [1.0, 0.0, -10.0], [0.0, 0.0, 10.0]];
+    let mesh = Mesh::new(&vertices, &[[0, 1, 2]]).expect("valid");
+    let lowest = Above::new(mesh, &Pose::IDENTITY, plate).lowest_points(&Pose::IDENTITY, 0..1);
+    assert!(lowest.medial.height_mm.is_nan() || lowest.lateral.height_mm.is_nan());
+    assert!(lowest.lift_off_mm().is_nan());
+}
+
+#[test]
 fn the_files_axes_drop_out_left_and_right() {
     let (femur_parts, tray_parts) = (femur(), tray());
     let (femur_pose, tibia_pose) = (pose(FEMUR.0, FEMUR.1), pose(TIBIA.0, TIBIA.1));

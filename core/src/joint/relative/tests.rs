@@ -1,6 +1,7 @@
 use super::*;
 use crate::joint::fake::{Normal, covariance, factor, pose, times};
 use crate::joint::kinematics::{Side, joint_angles};
+use crate::math::sqrt;
 
 /// A pose of a component after a step in camera axes.
 fn moved(placed: &Placed, step: &[f64; 6]) -> Pose {

@@ -162,11 +162,11 @@ fn finish(pixels: Pixels, attributes: &Attributes) -> Result<GreyFrame, Problem>
     }
     let mut frame = GreyFrame::plain(attributes.width, attributes.height, pixels);
     frame.geometry = attributes.geometry;
+    let size = (frame.width, frame.height);
+    (frame.shutter, frame.notes) = shown::shutter_and_notes(attributes, size);
     if attributes.is_grey() {
         frame.bits = attributes.depth as u8;
         frame.window = shown::window(attributes);
-        let size = (frame.width, frame.height);
-        (frame.shutter, frame.notes) = shown::shutter_and_notes(attributes, size);
     }
     Ok(frame)
 }

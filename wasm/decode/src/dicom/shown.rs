@@ -33,7 +33,10 @@ pub(super) fn shutter_and_notes(
     attributes: &Attributes,
     size: (u32, u32),
 ) -> (Option<Shutter>, Vec<String>) {
-    let mut notes = notes(attributes);
+    let mut notes = match attributes.is_grey() {
+        true => notes(attributes),
+        false => Vec::new(),
+    };
     let Some(stated) = &attributes.shutter else {
         return (None, notes);
     };

@@ -43,14 +43,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
 fn reduce(text: &str) -> Result<String, Problem> {
     let (mut reduced, mut joined) = (String::new(), String::new());
     let (mut vertices, mut triangles) = (0, 0);
-    for (number, line) in text.lines().enumerate() {
+    let mut lines = text.lines().enumerate().peekable();
+    while let Some((number, line)) = lines.next() {
         let line = line.trim_end();
-        if let Some(begun) = line.strip_suffix('\\') {
+        let is_comment = joined.is_empty() && line.trim_start().starts_with('#');
+        if let Some(begun) = line.strip_suffix('\\').filter(|_| !is_comment) {
             joined.push_str(begun);
             joined.push(' ');
-            continue;
+            // Behind the last line nothing comes that would go on with it.
+            if lines.peek().is_some() {
+                continue;
+            }
+        } else {
+            joined.push_str(line);
         }
-        joined.push_str(line);
         let mut words = joined.split_ascii_whitespace();
         let wrong = |what| Problem::damaged(FORMAT, format!("line {} {what}", number + 1));
         match words.next() {

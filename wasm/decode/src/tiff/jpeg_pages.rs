@@ -14,6 +14,9 @@ pub(super) const JPEG: u16 = 7;
 /// Value of the field that says what colours are: luminance first.
 const LUMINANCE_FIRST: u16 = 6;
 
+/// Value of the same field: the larger a number, the darker it is shown.
+const WHITE_IS_ZERO: u16 = 0;
+
 /// Most bytes of tables that all images share: there are no more of them than fit.
 const MAX_TABLES: usize = 16_384;
 
@@ -49,7 +52,8 @@ pub(super) fn grey(
         return Err(damaged(page, "its JPEG tables are longer than any can be"));
     }
     let photometric = decoder.find_tag_unsigned::<u16>(Tag::PhotometricInterpretation);
-    let colour = match photometric.map_err(|e| failed(page, e))? {
+    let photometric = photometric.map_err(|e| failed(page, e))?;
+    let colour = match photometric {
         Some(LUMINANCE_FIRST) => ComponentColours::LuminanceFirst,
         _ => ComponentColours::Rgb,
     };
@@ -65,12 +69,24 @@ pub(super) fn grey(
             .get(offset as usize..(offset + count) as usize)
             .unwrap_or_default();
         let image = jpeg::decode_with(&with_tables(&tables, coded), Some(colour))?;
-        place(
-            &image,
-            &mut pixels,
-            width,
-            (index % per_row * across, index / per_row * down),
-        )?;
+        let (left, top) = (index % per_row * across, index / per_row * down);
+        let visible = (
+            across.min(width.saturating_sub(left)),
+            down.min(height.saturating_sub(top)),
+        );
+        if (image.width as usize) < visible.0 || (image.height as usize) < visible.1 {
+            let part = index + 1;
+            return Err(damaged(
+                page,
+                format!("the image of its strip or tile {part} is smaller than that"),
+            ));
+        }
+        place(&image, &mut pixels, width, (left, top))?;
+    }
+    if photometric == Some(WHITE_IS_ZERO) {
+        pixels
+            .iter_mut()
+            .for_each(|pixel| *pixel = u8::MAX - *pixel);
     }
     Ok(Pixels::U8(pixels))
 }

@@ -29,6 +29,24 @@ fn assert_tetrahedron(model: &Model) {
 }
 
 #[test]
+fn obj_lines_go_on_behind_a_backslash_but_comments_do_not() {
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
+    for faces in [
+        "f 1 2 3\nf 1 3 4\nf 3 4 5 \\",
+        "f 1 2 3\nf 1 3 \\\n4\nf 3 4 5 \\\n",
+        "# from C:\\models\\\nf 1 2 3\nf 1 3 4\nf 3 4 5\n",
+    ] {
+        assert_eq!(
+            model(format!("{corners}{faces}").as_bytes())
+                .triangles
+                .len(),
+            3,
+            "{faces}"
+        );
+    }
+}
+
+#[test]
 fn every_format_gives_the_tetrahedron() {
     assert_tetrahedron(&model(stl_binary("made by hand")));
     assert_tetrahedron(&model(stl_ascii()));

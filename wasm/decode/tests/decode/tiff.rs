@@ -440,3 +440,30 @@ fn fax_codes_that_mean_nothing_are_refused() {
     }
     assert!(refused > 100, "{refused}");
 }
+
+/// A page of 16 x 14 pixels in one strip of this many rows.
+fn jpeg_strip(photometric: u64, image: &[u8]) -> Vec<u8> {
+    let mut fields = tiffs::fields(16, 14, &[8], 1);
+    for (tag, value) in [(259, 7), (262, photometric), (278, 14)] {
+        let field = fields.iter_mut().find(|field| field.0 == tag);
+        field.expect("a field of every page").2 = vec![value as _];
+    }
+    tiffs::of_strips(&fields, &[image])
+}
+
+#[test]
+fn a_jpeg_page_with_white_at_0_has_black_there() {
+    let image = jpeg(16, 14, &[40; 16 * 14], false);
+    let shown = |photometric| bytes_of(&only_frame(&jpeg_strip(photometric, &image), "a.tif"))[0];
+    assert!(shown(0).abs_diff(215) <= 1 && shown(1).abs_diff(40) <= 1);
+}
+
+#[test]
+fn an_image_smaller_than_its_strip_is_refused() {
+    let image = jpeg(16, 4, &[200; 16 * 4], false);
+    let error = decode_frames(&jpeg_strip(1, &image), "a.tif").unwrap_err();
+    assert!(
+        error.to_string().contains("strip or tile 1 is smaller"),
+        "{error}"
+    );
+}

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::joint::beside::Middles;
 use fluoropose::joint::flange::OtherSide;
 use fluoropose::joint::kinematics::{self, joint_axes, relative_pose};
@@ -29,8 +29,8 @@ numbers: anterior-posterior, superior-inferior and mediolateral translation (mm)
 translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. Translations are those \
 of the origins of both files, wherever these lie: a line that begins with # says so above the table's heading, and another where they are such as no knee has. A frame in which \
 either has no pose has empty numbers. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
-code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
-patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
+code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (of left implants x anterior, y superior, z to the \
+patient's right; files of right ones are those mirrored in x: x posterior, z to the patient's left); for others name both models, so that their shapes tell the axes, or state the axes of both.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
 )]
 pub struct Args {
@@ -83,6 +83,12 @@ pub fn run(args: Args) -> Result<u8> {
     let femur_part = part(&args.femur_model, &args.femur_axes, Role::Femur)?;
     let tibia_part = part(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
     let parts = [&femur_part, &tibia_part];
+    let known = parts.map(|part| part.axes.is_some());
+    ensure!(
+        known[0] == known[1],
+        "the axes of the {} component are known and those of the other are not: name both models, or state the axes of both",
+        if known[0] { "femoral" } else { "tibial" }
+    );
     let Told { table, told, far } = table(parts, side, femur.into_iter().zip(tibia))?;
     let marked = told.iter().map(|told| format!("# doubtful: {told}\n"));
     let origins = [format!("# translations: {ORIGINS}\n")];

@@ -47,7 +47,7 @@ calibration and models: `report` says where they are others since), and journal.
 and after other clicks or fixed poses only what lies between them is done again, with the constants of the film as the folder's first run told them: what they come to with \
 other poses, --anew tells.\n\n\
 track.csv: frame, component, state, verdict (good, doubtful or none), because (the reason of both), the six numbers and one standard deviation of each (sd_*), misfit_px (what remains between the model's outline and the edges \
-of the frame, in pixels of the file), badness (how much speaks against the pose: above 1 it is doubtful), file (the name of the frame's file) and frame_of_file (the frame's \
+of the frame, in pixels of the file), badness (how much the frame speaks against the pose: above 1 it is doubtful, and below 1 for another reason, which because tells), file (the name of the frame's file) and frame_of_file (the frame's \
 number in it, from 1).\n\n\
 COMPONENT.covariances.csv: frame, and c11 to c66, row by row, the covariance of a turn about the middle of the model's box (a rotation vector, radians: numbers 1 to 3) and a \
 shift of that middle (mm: 4 to 6), both along the camera's axes; film1_1 to film2_6: how turn and shift answer to one standard deviation of each of two constants of the film, which \

@@ -156,3 +156,15 @@ fn one_that_is_not_known_covers_nothing_or_covers_all_is_not_used() {
         assert!(frame.notes[0].contains("not used"), "{:?}", frame.notes);
     }
 }
+
+#[test]
+fn that_of_a_colour_picture_is_kept() {
+    let edges = [(LEFT, "3"), (RIGHT, "6"), (TOP, "2"), (BOTTOM, "4")];
+    let mut image = Builder::image_with(EXPLICIT, WIDTH, HEIGHT, 1, "RGB", [8, 8, 7, 0]);
+    image.short(0x0028_0006, 0);
+    let pixels: Vec<u8> = (0..63).flat_map(|k| [k; 3]).collect();
+    let file = join(elements(EXPLICIT, "RECTANGULAR", &edges), image).octets(&pixels);
+    let frame = only_frame(&file, "a.dcm");
+    assert_eq!(picture(&frame)[1], "..OOOO...");
+    assert_eq!(frame.notes.len(), 1);
+}

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -311,8 +311,19 @@ pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
             covariance: PoseCovariance { matrix },
             film_steps: rows[6..].try_into().ok(),
         };
-        // A whole number from 1: fractions would name no frame.
-        all.insert((numbers[0] as usize).saturating_sub(1), uncertain);
+        let frame = numbers[0];
+        ensure!(
+            frame >= 1.0 && frame.fract() == 0.0,
+            "line {} names no frame, a whole number from 1",
+            index + 1
+        );
+        let is_known = numbers.iter().all(|number| number.is_finite());
+        ensure!(
+            is_known && (0..6).all(|k| matrix[k][k] >= 0.0),
+            "line {} holds no covariance: its numbers have to be finite, and variances not negative",
+            index + 1
+        );
+        all.insert(frame as usize - 1, uncertain);
     }
     Ok(all)
 }
