@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Words of stack that are watched. */
+/* Words of stack that are watched, where there are so many above the statics. */
 #define BOARD_STACK_WORDS (32u * 1024u)
 
 /* The program: gives 0 where it succeeded. */
@@ -16,7 +16,7 @@ void board_write(const char *words);
 void board_exit(int failed) __attribute__((noreturn));
 /* Ticks of the clock. Under QEMU with `-icount shift=6` an instruction takes 1.6 of them. */
 uint64_t board_ticks(void);
-/* Bytes of stack that were used at its highest. */
+/* Bytes of stack that were used at its highest. Where it came down to the statics nothing that follows holds: the program ends with a word. */
 void board_paint_stack(void);
 uint32_t board_stack_used(void);
 

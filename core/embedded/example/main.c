@@ -38,7 +38,7 @@ static int fail(fluoropose *finder, const char *what, fluoropose_status status) 
 }
 
 static void report(const fluoropose_found *found, const fluoropose_candidate *best) {
-    static const char *const VERDICTS[] = {"good", "doubtful", "none"};
+    static const char *const VERDICTS[] = {"no verdict", "good", "doubtful", "none"};
     static const char *const NUMBERS[] = {"x mm", "y mm", "z mm", "z_rot deg", "x_rot deg", "y_rot deg"};
     write_number(found->part[2]);
     write_words(" x ");
@@ -72,6 +72,10 @@ int application(void) {
     fluoropose_status status = fluoropose_open(&finder, implant, bytes, 0, &ROOM, (uint8_t *)memory, sizeof memory);
     const size_t needed = fluoropose_bytes_needed(implant, bytes, &ROOM);
     if (status != FLUOROPOSE_OK) {
+        char sentence[200];
+        fluoropose_implant_sentence(implant, bytes, 0, sentence, sizeof sentence);
+        write_words(sentence);
+        write_words("\n");
         tell("memory that would be needed", needed, " bytes\n");
         return fail(finder, "the implant cannot be opened", status);
     }

@@ -53,15 +53,25 @@ uint64_t board_ticks(void) {
 
 #define PAINT 0x5afe57acu
 
+/* The lowest word that is watched: none of the statics. */
+static uint32_t *stack_bottom(void) {
+    uint32_t *lowest = stack_top - BOARD_STACK_WORDS;
+    return lowest < bss_end ? bss_end : lowest;
+}
+
 void board_paint_stack(void) {
     uint32_t *here = (uint32_t *)__builtin_frame_address(0) - 64;
-    for (uint32_t *word = stack_top - BOARD_STACK_WORDS; word < here; word++) {
+    for (uint32_t *word = stack_bottom(); word < here; word++) {
         *(volatile uint32_t *)word = PAINT;
     }
 }
 
 uint32_t board_stack_used(void) {
-    const uint32_t *word = stack_top - BOARD_STACK_WORDS;
+    const uint32_t *word = stack_bottom();
+    if (*(const volatile uint32_t *)word != PAINT) {
+        board_write("the stack came down to all that is watched: what was written below it is lost\n");
+        board_exit(1);
+    }
     while (word < stack_top && *(const volatile uint32_t *)word == PAINT) {
         word++;
     }

@@ -24,7 +24,7 @@ typedef int32_t fluoropose_status;
 #define FLUOROPOSE_IMPLANT 3    /* the bytes are no implant file, damaged, or not at a multiple of 4 */
 #define FLUOROPOSE_CAMERA 4     /* the numbers are those of no camera */
 #define FLUOROPOSE_OUTLINE 5    /* the points are no outline: too few, outside the frame, crossing */
-#define FLUOROPOSE_ROWS 6       /* rows do not rise, reach beyond the frame, or have more runs than there is room for */
+#define FLUOROPOSE_ROWS 6       /* rows do not rise, are not as wide as the frame, or have more runs than there is room for */
 #define FLUOROPOSE_SILHOUETTE 7 /* the silhouette is empty, or there is too little room: the sentence says of what */
 #define FLUOROPOSE_NO_POSE 8    /* no pose explains the silhouette */
 #define FLUOROPOSE_ORDER 9      /* a call came before the one that it goes on from, or there is no such candidate */
@@ -67,9 +67,10 @@ typedef struct {
     double row;
 } fluoropose_point;
 
-#define FLUOROPOSE_GOOD 0
-#define FLUOROPOSE_DOUBTFUL 1
-#define FLUOROPOSE_NONE 2
+/* 0 is no verdict: memory of zeros, which nothing was written to, says nothing good. */
+#define FLUOROPOSE_GOOD 1
+#define FLUOROPOSE_DOUBTFUL 2
+#define FLUOROPOSE_NONE 3
 
 /* What was found, and how far it is to be trusted. */
 typedef struct {
@@ -116,7 +117,8 @@ fluoropose_status fluoropose_outline(fluoropose *finder, const fluoropose_point 
 /* The rows of the next frame's silhouette come, as a detector reads them out. */
 fluoropose_status fluoropose_begin_rows(fluoropose *finder);
 
-/* Adds a row below those before it, a byte a pixel: what is not 0 is the silhouette. Rows without any may be left out. */
+/* Adds a row below those before it, a byte a pixel: what is not 0 is the silhouette. `width` is the camera's: a part of a row would be
+ * looked for in another place. Rows without any may be left out. */
 fluoropose_status fluoropose_row(fluoropose *finder, uint32_t row, const uint8_t *pixels, size_t width);
 
 /* Finds the poses that explain the silhouette, and their mirror images; chooses among them and judges the choice. */
@@ -126,7 +128,7 @@ fluoropose_status fluoropose_find(fluoropose *finder);
  * of the library, or one drawing of the model with its readings. */
 fluoropose_status fluoropose_go_on(fluoropose *finder, uint32_t slices);
 
-/* What was found. */
+/* What was found; `found->verdict` is 0 where nothing was. */
 fluoropose_status fluoropose_found_of(fluoropose *finder, fluoropose_found *found);
 
 /* One of the poses; the best is number 0. */
@@ -135,6 +137,9 @@ fluoropose_status fluoropose_candidate_of(fluoropose *finder, uint32_t number, f
 /* Writes the verdict, or why the last call failed, as a sentence without its full stop, cut off where it does not fit into
  * `room` bytes and ended by a zero. Gives the bytes of the whole sentence without that zero. */
 size_t fluoropose_sentence(fluoropose *finder, char *text, size_t room);
+
+/* The same of why bytes cannot be opened, checked or trusted: fluoropose_open leaves no session that could be asked. Nothing (0) where they can. */
+size_t fluoropose_implant_sentence(const uint8_t *implant_file, size_t implant_bytes, int32_t trusted, char *text, size_t room);
 
 #ifdef __cplusplus
 }

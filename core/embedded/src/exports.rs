@@ -292,8 +292,7 @@ pub unsafe extern "C" fn fluoropose_row(
     let Some(pixels) = pixels else {
         return opened.keep(Err(Failure::Pointer));
     };
-    let inside = pixels.iter().map(|&pixel| pixel != 0);
-    let added = opened.session.row(row as usize, inside);
+    let added = opened.session.row(row as usize, pixels);
     opened.keep(added)
 }
 
@@ -342,9 +341,17 @@ pub unsafe extern "C" fn fluoropose_found_of(
         return Status::Pointer;
     };
     let decision = opened.session.decision();
+    let numbers = decision.map(|(numbers, _)| numbers);
     // SAFETY: the caller's promise.
-    let told = decision.and_then(|(numbers, _)| unsafe { put(found, numbers) });
-    opened.keep(told)
+    let told = unsafe { put(found, numbers.unwrap_or_default()) };
+    // Why nothing was found stays what there is to say.
+    match (told, numbers) {
+        (Ok(()), Err(failure)) => {
+            opened.failure.get_or_insert(failure);
+            failure.status()
+        }
+        (told, _) => opened.keep(told),
+    }
 }
 
 /// Tells one of the poses, the best is number 0.
@@ -382,18 +389,35 @@ pub unsafe extern "C" fn fluoropose_sentence(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return 0;
     };
-    let mut out = Text {
-        to: text,
-        room: if text.is_null() { 0 } else { room },
-        written: 0,
-        needed: 0,
-    };
+    let mut out = Text::new(text, room);
     // Writing into it does not fail.
     let _ = match (&opened.failure, opened.session.decision()) {
         (Some(failure), _) => write!(out, "{failure}"),
         (None, Ok((_, decision))) => write!(out, "{}", decision.verdict),
         (None, Err(failure)) => write!(out, "{failure}"),
     };
+    out.end();
+    out.needed
+}
+
+/// The same of why bytes cannot be opened; nothing where they can.
+///
+/// # Safety
+/// `implant_file` leads to `implant_bytes` bytes, `text` to `room` bytes, or they are null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fluoropose_implant_sentence(
+    implant_file: *const u8,
+    implant_bytes: usize,
+    trusted: i32,
+    text: *mut c_char,
+    room: usize,
+) -> usize {
+    let mut out = Text::new(text, room);
+    // SAFETY: the caller's promise.
+    if let Err(failure) = unsafe { implant(implant_file, implant_bytes, trusted) } {
+        // Writing into it does not fail.
+        let _ = write!(out, "{failure}");
+    }
     out.end();
     out.needed
 }
@@ -407,6 +431,16 @@ struct Text {
 }
 
 impl Text {
+    /// At a null pointer there is no room.
+    fn new(text: *mut c_char, room: usize) -> Self {
+        Self {
+            to: text,
+            room: if text.is_null() { 0 } else { room },
+            written: 0,
+            needed: 0,
+        }
+    }
+
     fn byte(&mut self, byte: u8) {
         if self.written < self.room {
             // SAFETY: there are `room` bytes by the promise of who called.

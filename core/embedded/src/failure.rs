@@ -59,6 +59,14 @@ pub enum Failure {
     /// A row cannot be where it was said to be.
     #[error(transparent)]
     Rows(#[from] RunsError),
+    /// A row is not as wide as the frame.
+    #[error("a row has {width} pixels, and the frame of this camera {wanted}")]
+    Width {
+        /// Pixels of the row.
+        width: usize,
+        /// Columns of the frame.
+        wanted: usize,
+    },
     /// The silhouette is empty, or larger than there is memory for.
     #[error(transparent)]
     Silhouette(#[from] MaskError),
@@ -90,7 +98,7 @@ impl Failure {
             Self::Implant(_) => Status::Implant,
             Self::Camera(_) => Status::Camera,
             Self::Outline(_) => Status::Outline,
-            Self::Rows(_) => Status::Rows,
+            Self::Rows(_) | Self::Width { .. } => Status::Rows,
             Self::Silhouette(_) | Self::Room { .. } => Status::Silhouette,
             Self::Find(_) => Status::NoPose,
             Self::Order => Status::Order,

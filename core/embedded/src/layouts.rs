@@ -99,7 +99,7 @@ impl CalibrationNumbers {
 #[repr(C)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FoundNumbers {
-    /// 0 good, 1 doubtful, 2 none.
+    /// 1 good, 2 doubtful, 3 none; 0, of memory that nothing was written to, is no verdict.
     pub verdict: u32,
     /// Poses that explain the silhouette.
     pub candidates: u32,
@@ -114,9 +114,9 @@ impl FoundNumbers {
         let (columns, rows) = (crop.columns(), crop.rows());
         Self {
             verdict: match decision.verdict {
-                Verdict::Good => 0,
-                Verdict::Doubtful(_) => 1,
-                Verdict::NoFit(_) => 2,
+                Verdict::Good => 1,
+                Verdict::Doubtful(_) => 2,
+                Verdict::NoFit(_) => 3,
             },
             candidates: candidates as u32,
             chosen: decision.choice.index as u32,

@@ -164,26 +164,29 @@ impl<'m> Session<'m> {
         Ok(())
     }
 
-    /// Adds a row, pixel by pixel from the left: `true` is the silhouette.
+    /// Adds a row, a byte a pixel from the left: what is not 0 is the silhouette.
     ///
     /// # Errors
-    /// [`Failure::Order`] before [`Self::begin_rows`]; [`Failure::Rows`] for rows that do not rise, reach beyond the frame or
-    /// have more runs than there is memory for: the silhouette is lost then.
-    pub fn row(
-        &mut self,
-        row: usize,
-        pixels: impl IntoIterator<Item = bool>,
-    ) -> Result<(), Failure> {
+    /// [`Failure::Order`] before [`Self::begin_rows`]; [`Failure::Width`] and [`Failure::Rows`] for rows that are not as wide as the frame, do not
+    /// rise, reach beyond it or have more runs than there is memory for: the silhouette is lost then.
+    pub fn row(&mut self, row: usize, pixels: &[u8]) -> Result<(), Failure> {
         // A search is given up, as by all that is said of a frame.
         self.searches = false;
         if !matches!(self.seen, Seen::Rows) {
             return Err(Failure::Order);
         }
-        let added = self.runs.add_row(row, pixels);
+        let (width, wanted) = (pixels.len(), self.camera.width());
+        let added = match width == wanted {
+            true => {
+                let inside = pixels.iter().map(|&pixel| pixel != 0);
+                self.runs.add_row(row, inside).map_err(Failure::from)
+            }
+            false => Err(Failure::Width { width, wanted }),
+        };
         if added.is_err() {
             self.forget();
         }
-        Ok(added?)
+        added
     }
 
     /// Finds the poses that explain the silhouette, chooses among them and judges the choice: so many slices of it, which begin

@@ -68,6 +68,13 @@ fn tell(board: &mut impl Board, name: &str, value: u64, unit: &str) -> fmt::Resu
 fn report_memory(board: &mut impl Board) -> fmt::Result {
     let data: usize = DATA.iter().map(|(_, bytes)| bytes).sum();
     let [first, second] = DATA;
+    let Some(stack) = stack::most_used() else {
+        words(
+            board,
+            &["the stack came down to all that is watched: what was written below it is lost\n"],
+        )?;
+        return Err(fmt::Error);
+    };
     let bytes = [
         ("working memory", size_of::<Memory>()),
         ("code", stack::code()),
@@ -75,7 +82,7 @@ fn report_memory(board: &mut impl Board) -> fmt::Result {
         first,
         second,
         ("all statics", stack::statics()),
-        ("stack at its highest", stack::most_used()),
+        ("stack at its highest", stack),
     ];
     for (name, bytes) in bytes {
         tell(board, name, bytes as u64, " bytes\n")?;

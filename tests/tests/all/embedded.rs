@@ -206,12 +206,26 @@ fn what_comes_in_a_wrong_order_is_refused() {
         assert_eq!(fluoropose_camera_of(c.finder, &mut camera), Status::Ok);
         assert_eq!((camera.width, camera.height), (512, 512));
         assert_eq!(fluoropose_find(c.finder), Status::Silhouette);
+        // Nothing that was found is nothing good, and why stays to be told.
+        let mut found = FoundNumbers::default();
+        let asked = fluoropose_found_of(c.finder, &mut found);
+        assert_eq!((asked, found.verdict), (Status::Order, 0));
+        assert!(c.sentence().contains("empty"), "{}", c.sentence());
+        let row = [1; 512];
         c.rows(&mask);
-        assert_eq!(fluoropose_row(c.finder, 5, [1].as_ptr(), 1), Status::Rows);
+        assert_eq!(fluoropose_row(c.finder, 5, row.as_ptr(), 512), Status::Rows);
+        assert_eq!(fluoropose_find(c.finder), Status::Order);
+        // A part of a row would be looked for in another place.
+        c.rows(&mask);
+        assert_eq!(
+            fluoropose_row(c.finder, 511, row.as_ptr(), 500),
+            Status::Rows
+        );
+        assert!(c.sentence().contains("500 pixels"), "{}", c.sentence());
         assert_eq!(fluoropose_find(c.finder), Status::Order);
         c.rows(&mask);
         assert_eq!(fluoropose_find(c.finder), Status::Ok);
-        assert_eq!(c.found().verdict, 0);
+        assert_eq!(c.found().verdict, 1);
         assert_eq!(
             fluoropose_candidate_of(c.finder, 99, &mut candidate),
             Status::Order
@@ -230,7 +244,7 @@ fn another_camera_gives_up_what_was_found() {
     unsafe {
         c.rows(&mask);
         assert_eq!(fluoropose_find(c.finder), Status::Ok);
-        assert_eq!(c.found().verdict, 0);
+        assert_eq!(c.found().verdict, 1);
         assert_eq!(fluoropose_camera_of(c.finder, &mut camera), Status::Ok);
         // Another camera: nothing is left of what was found, and impossible ones are refused.
         camera.fx = f64::NAN;
@@ -251,7 +265,7 @@ fn another_camera_gives_up_what_was_found() {
         assert_eq!(set, Status::Ok);
         c.rows(&mask);
         assert_eq!(fluoropose_find(c.finder), Status::Ok);
-        assert_eq!(c.found().verdict, 1);
+        assert_eq!(c.found().verdict, 2);
         assert!(
             c.sentence().contains("behind the detector"),
             "{}",
@@ -354,6 +368,14 @@ fn what_is_no_session_is_refused_by_each_function() {
             assert_eq!(fluoropose_candidate_of(finder, 0, &mut candidate), none);
             assert_eq!(fluoropose_sentence(finder, null_mut(), 0), 0);
         }
+        // Bytes are asked for themselves, where there is no session.
+        let mut text = [0u8; 200];
+        let out: *mut std::ffi::c_char = text.as_mut_ptr().cast();
+        assert_eq!(fluoropose_implant_sentence(file, length, 0, out, 200), 0);
+        let said = fluoropose_implant_sentence(file, length - 1, 0, out, 200);
+        let said = String::from_utf8_lossy(&text[..said.min(199)]).into_owned();
+        assert!(said.contains("cut or padded"), "{said}");
+        assert!(fluoropose_implant_sentence(null(), 5, 1, null_mut(), 5) > 0);
     }
 }
 
@@ -379,7 +401,8 @@ fn pointers_that_lead_nowhere_give_an_error_in_a_session() {
         );
         c.rows(&mask);
         assert_eq!(fluoropose_row(finder, 511, null(), 5), Status::Pointer);
-        assert_eq!(fluoropose_row(finder, 511, null(), 0), Status::Ok);
+        assert_eq!(fluoropose_row(finder, 511, null(), 0), Status::Rows);
+        c.rows(&mask);
         assert_eq!(fluoropose_find(finder), Status::Ok);
         assert_eq!(fluoropose_set_camera(finder, null()), Status::Pointer);
         assert_eq!(fluoropose_camera_of(finder, null_mut()), Status::Pointer);

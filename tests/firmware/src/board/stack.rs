@@ -35,8 +35,9 @@ pub(crate) fn paint() {
     }
 }
 
-/// The most bytes of stack that were ever used since [`paint`].
-pub(crate) fn most_used() -> usize {
+/// The most bytes of stack that were ever used since [`paint`]; `None` where nothing is left of the paint: what was below it, statics
+/// or more stack than is watched, may be overwritten.
+pub(crate) fn most_used() -> Option<usize> {
     let painted = |word: &usize| {
         // SAFETY: these are words of RAM, and reading them has no effect.
         unsafe { read_volatile((word * 4) as *const u32) == PAINT }
@@ -44,7 +45,7 @@ pub(crate) fn most_used() -> usize {
     let lowest = (bottom()..top())
         .find(|word| !painted(word))
         .unwrap_or(top());
-    (top() - lowest) * 4
+    (lowest > bottom()).then(|| (top() - lowest) * 4)
 }
 
 /// Bytes of all statics: initialised, zeroed and uninitialised.

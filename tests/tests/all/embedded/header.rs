@@ -42,7 +42,7 @@ fn the_headers_functions_are_the_librarys() {
         .filter_map(|(name, count)| Some((name.strip_prefix("fluoropose_")?, count)))
         .collect();
     assert_eq!(declared, exported);
-    assert_eq!(declared.len(), 13);
+    assert_eq!(declared.len(), 14);
     for (name, status) in [
         ("OK", Status::Ok),
         ("POINTER", Status::Pointer),
