@@ -300,10 +300,8 @@ fn what_is_not_known_is_not_drawn() {
     let mut bare = film(12.0);
     for joint in bare.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
         let mut deviations = joint.deviations.unwrap_or([0.5; NUMBERS]);
-        for number in place::MEDIAL_AP..NUMBERS {
-            joint.numbers[number] = f64::NAN;
-            deviations[number] = f64::NAN;
-        }
+        joint.numbers[place::MEDIAL_AP..].fill(f64::NAN);
+        deviations[place::MEDIAL_AP..].fill(f64::NAN);
         joint.deviations = Some(deviations);
     }
     let picture = figure(&bare);

@@ -41,16 +41,7 @@ pub(super) fn grey(
     };
     let offsets = list(decoder, [Tag::TileOffsets, Tag::StripOffsets])?;
     let counts = list(decoder, [Tag::TileByteCounts, Tag::StripByteCounts])?;
-    let tables = decoder
-        .find_tag(Tag::JPEGTables)
-        .map_err(|e| failed(page, e))?;
-    let tables = match tables {
-        Some(value) => value.into_u8_vec().map_err(|e| failed(page, e))?,
-        None => Vec::new(),
-    };
-    if tables.len() > MAX_TABLES {
-        return Err(damaged(page, "its JPEG tables are longer than any can be"));
-    }
+    let tables = tables_of(decoder, page)?;
     let photometric = decoder.find_tag_unsigned::<u16>(Tag::PhotometricInterpretation);
     let photometric = photometric.map_err(|e| failed(page, e))?;
     let colour = match photometric {
@@ -70,11 +61,13 @@ pub(super) fn grey(
             .unwrap_or_default();
         let image = jpeg::decode_with(&with_tables(&tables, coded), Some(colour))?;
         let (left, top) = (index % per_row * across, index / per_row * down);
-        let visible = (
-            across.min(width.saturating_sub(left)),
-            down.min(height.saturating_sub(top)),
-        );
-        if (image.width as usize) < visible.0 || (image.height as usize) < visible.1 {
+        let visible = [(across, width, left), (down, height, top)]
+            .map(|(part, whole, at)| part.min(whole.saturating_sub(at)));
+        if [image.width, image.height]
+            .iter()
+            .zip(visible)
+            .any(|(&own, seen)| (own as usize) < seen)
+        {
             let part = index + 1;
             return Err(damaged(
                 page,
@@ -89,6 +82,21 @@ pub(super) fn grey(
             .for_each(|pixel| *pixel = u8::MAX - *pixel);
     }
     Ok(Pixels::U8(pixels))
+}
+
+/// What the images of a page share.
+fn tables_of(decoder: &mut Reader<'_>, page: usize) -> Result<Vec<u8>, Problem> {
+    let tables = decoder
+        .find_tag(Tag::JPEGTables)
+        .map_err(|e| failed(page, e))?;
+    let tables = match tables {
+        Some(value) => value.into_u8_vec().map_err(|e| failed(page, e))?,
+        None => Vec::new(),
+    };
+    if tables.len() > MAX_TABLES {
+        return Err(damaged(page, "its JPEG tables are longer than any can be"));
+    }
+    Ok(tables)
 }
 
 /// The tables that all images of a page share, put into one after its first mark.

@@ -110,7 +110,7 @@ pub fn run(args: Args) -> Result<u8> {
         frames: args.frames.as_deref(),
     };
     let source = Source::read(&folders, &calibration)?;
-    let other = Other::read(&args, source.masks.len())?;
+    let other = other_of(&args, source.masks.len())?;
     let finder = Finder::open(&bytes, mesh, source.camera, args.method)
         .with_context(|| args.library.display().to_string())?;
     let posing = Posing {
@@ -152,6 +152,13 @@ pub fn run(args: Args) -> Result<u8> {
         eprintln!("{missing} of {} masks have no pose", rows.len());
     }
     Ok(if is_good { 0 } else { exit::DOUBTFUL })
+}
+
+fn other_of(args: &Args, frames: usize) -> Result<Option<Other>> {
+    let named = args.role.zip(args.counterpart.as_deref());
+    let model = args.counterpart_model.as_deref();
+    let other = named.map(|(role, poses)| Other::read(role, poses, model, frames));
+    other.transpose()
 }
 
 /// The model, and what there is to say of it, which is said.

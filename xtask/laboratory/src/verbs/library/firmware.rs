@@ -473,7 +473,7 @@ mod tests {
     }
 
     #[test]
-    fn from_the_side_the_normal_lies_along_the_line_of_sight() {
+    fn from_the_side_the_normal_is_nearly_the_viewing_direction() {
         let plane = SymmetryPlane {
             point: [0.0; 3],
             normal: [0.6, 0.0, 0.8],

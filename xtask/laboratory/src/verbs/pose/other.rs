@@ -7,7 +7,6 @@ use anyhow::{Result, bail};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::Pose;
 
-use super::Args;
 use crate::choice::Beside;
 use crate::files::{Role, States, read_model_of, read_poses};
 
@@ -20,11 +19,13 @@ pub(super) struct Other {
 }
 
 impl Other {
-    /// None where no poses of it were given; they are as many as there are frames.
-    pub(super) fn read(args: &Args, frames: usize) -> Result<Option<Self>> {
-        let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
-            return Ok(None);
-        };
+    /// Beside a component of this role: its poses, as many as there are frames, and its model.
+    pub(super) fn read(
+        role: Role,
+        path: &Path,
+        model: Option<&Path>,
+        frames: usize,
+    ) -> Result<Self> {
         let poses = read_poses(path)?;
         if poses.len() != frames {
             bail!(
@@ -34,14 +35,13 @@ impl Other {
             );
         }
         let doubtful = doubtful_rows(path, &poses)?;
-        let model = args.counterpart_model.as_ref();
         let model = model.map(|file| read_model_of(file, Some(role.other())));
-        Ok(Some(Self {
+        Ok(Self {
             role,
             poses,
             doubtful,
             model: model.transpose()?,
-        }))
+        })
     }
 
     pub(super) fn beside(&self) -> Beside<'_> {
