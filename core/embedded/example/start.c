@@ -55,8 +55,8 @@ uint64_t board_ticks(void) {
 
 /* The lowest word that is watched: none of the statics. */
 static uint32_t *stack_bottom(void) {
-    uint32_t *lowest = stack_top - BOARD_STACK_WORDS;
-    return lowest < bss_end ? bss_end : lowest;
+    const uintptr_t lowest = (uintptr_t)stack_top - 4u * BOARD_STACK_WORDS, statics = (uintptr_t)bss_end;
+    return (uint32_t *)(lowest < statics ? statics : lowest);
 }
 
 void board_paint_stack(void) {
