@@ -93,6 +93,7 @@ impl Surroundings {
         let neighbours: Vec<Pose> = self.neighbours.iter().map(field).collect();
         let context = ChoiceContext {
             counterpart: self.counterpart,
+            is_counterpart_doubtful: false,
             neighbours: &neighbours,
         };
         choose(&candidates, &context)

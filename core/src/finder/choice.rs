@@ -16,6 +16,8 @@
 //! of 16 frames and left one other pose open, 8 to 21 degrees away and of 1.02 to 1.22 times the
 //! residual; the pose taken was right in all of them. A whole film is decided at once by [`choose_film`].
 //!
+//! A counterpart that is doubtful itself rules out nothing: poses that it speaks against stay open, behind the others.
+//!
 //! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]).
 //!
 //! Rules 2 and 3 need models with the field's axes: x anteroposterior, y superoinferior (the tibial
@@ -97,6 +99,8 @@ impl Counterpart {
 pub struct ChoiceContext<'a> {
     /// The other component in the same frame.
     pub counterpart: Option<Counterpart>,
+    /// Whether its pose is doubtful itself: it tells which pose to prefer then, and rules out none.
+    pub is_counterpart_doubtful: bool,
     /// Poses of the same component in the frame before, the frame after, or both.
     pub neighbours: &'a [Pose],
 }
@@ -257,7 +261,8 @@ impl fmt::Display for Choice {
 /// Chooses among the poses of one frame, which may come in any order; `None` where there is none.
 #[must_use]
 pub fn choose(candidates: &[RivalPose], context: &ChoiceContext<'_>) -> Option<Choice> {
-    let mut contenders = Contenders::of(candidates, context.counterpart.as_ref());
+    let beside = context.counterpart.as_ref();
+    let mut contenders = Contenders::of(candidates, beside, context.is_counterpart_doubtful);
     let turn = |pose: &Pose| mean_turn_deg(pose, context.neighbours);
     if let Some((chosen_deg, other_deg)) = contenders.narrow(&turn, TURN_MARGIN_DEG) {
         contenders.reason = Some(Reason::Turn {
@@ -284,20 +289,28 @@ struct Contenders<'a> {
     candidates: &'a [RivalPose],
     counterpart: Option<&'a Counterpart>,
     open: Vec<usize, CONTENDERS>,
+    /// How many of those nothing speaks against: they come first.
+    preferred: usize,
     reason: Option<Reason>,
 }
 
 impl<'a> Contenders<'a> {
     /// What the candidates' residuals and the counterpart leave open.
-    fn of(candidates: &'a [RivalPose], counterpart: Option<&'a Counterpart>) -> Self {
+    fn of(
+        candidates: &'a [RivalPose],
+        counterpart: Option<&'a Counterpart>,
+        is_doubtful: bool,
+    ) -> Self {
         let mut contenders = Self {
             candidates,
             counterpart,
             open: Vec::new(),
+            preferred: 0,
             reason: None,
         };
         contenders.sort();
         contenders.rule_by_residual();
+        let fitting = contenders.open.clone();
         contenders.rule_by_knee();
         let tilt = |pose: &Pose| match counterpart {
             Some(known) if known.no_knee_deg(pose).is_none() => known.tilt_deg(pose),
@@ -308,6 +321,13 @@ impl<'a> Contenders<'a> {
                 chosen_deg,
                 other_deg,
             });
+        }
+        contenders.preferred = contenders.open.len();
+        if is_doubtful {
+            let behind = fitting
+                .iter()
+                .filter(|index| !contenders.open.contains(index));
+            contenders.open = first_of(contenders.open.iter().chain(behind).copied());
         }
         contenders
     }

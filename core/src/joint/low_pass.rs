@@ -3,8 +3,8 @@
 //! A second-order filter forwards and backwards, which is of fourth order and has no lag; its own cutoff is corrected so that
 //! the two passes together halve the power at the cutoff that was asked for (Winter, *Biomechanics and Motor Control of Human
 //! Movement*, section 3.4). Every unbroken run of frames is filtered by itself, continued at its ends by its own point
-//! reflection, as `scipy.signal.filtfilt` does, about the line through both ends, which stays as it is: a run that is shorter
-//! than the filter remembers is not drawn towards either end.
+//! reflection, as `scipy.signal.filtfilt` does. Of one that is shorter than the filter remembers the line through both ends stays as it is: it
+//! is not drawn towards either.
 
 use thiserror::Error;
 
@@ -114,18 +114,23 @@ impl LowPass {
             return;
         };
         let periods = BEYOND * self.frames_per_s / self.cutoff_hz;
-        let beyond = (periods as usize).min(run.len() - 1);
+        let wanted = periods as usize;
+        let beyond = wanted.min(run.len() - 1);
         let whole = &mut memory[..run.len() + 2 * beyond];
-        // The line through both ends passes any filter without phase as it is. Without it a run that is shorter than the filter's
-        // memory would not: what goes before it and behind it is only as long as the run.
-        let slope = (last - first) / (run.len() - 1).max(1) as f64;
+        // The line through both ends passes any filter without lag as it is; in a run that is shorter than the filter remembers it
+        // would not, since what is put before it and behind it is only as long as the run.
+        let slope = match beyond < wanted {
+            true => (last - first) / (run.len() - 1).max(1) as f64,
+            false => 0.0,
+        };
         let line = |at: usize| first + slope * at as f64;
         for (at, value) in run.iter().enumerate() {
             whole[beyond + at] = value - line(at);
         }
+        let end = beyond + run.len() - 1;
         for k in 0..beyond {
-            whole[k] = -whole[2 * beyond - k];
-            whole[beyond + run.len() + k] = -whole[beyond + run.len() - 2 - k];
+            whole[k] = 2.0 * whole[beyond] - whole[2 * beyond - k];
+            whole[end + 1 + k] = 2.0 * whole[end] - whole[end - 1 - k];
         }
         self.pass(whole.iter_mut());
         self.pass(whole.iter_mut().rev());

@@ -55,6 +55,7 @@ fn with_the_femur_known_the_tilt_finds_the_tibia_in_all_frames() {
         assert!((-3.1..0.1).contains(&right) && (-8.2..-4.4).contains(&wrong));
         let context = ChoiceContext {
             counterpart: Some(Counterpart::Femur(*femur)),
+            is_counterpart_doubtful: false,
             neighbours: &[],
         };
         let choice = choose(&candidates(sides), &context).expect("two");
@@ -76,6 +77,7 @@ fn with_the_tibia_known_the_tilt_never_decides_for_a_mirrored_femur() {
         println!("frame {frame:2}: tilt {right:5.2}, mirrored femur {wrong:5.2} deg");
         let context = ChoiceContext {
             counterpart: Some(Counterpart::Tibia(*tibia)),
+            is_counterpart_doubtful: false,
             neighbours: &[],
         };
         let choice = choose(&candidates(sides), &context).expect("two");
@@ -117,6 +119,7 @@ fn the_neighbouring_frame_tells_the_sides_apart() {
             let neighbours = [pair[0][0]];
             let context = ChoiceContext {
                 counterpart: None,
+                is_counterpart_doubtful: false,
                 neighbours: &neighbours,
             };
             let choice = choose(&candidates(&pair[1]), &context).expect("two");
@@ -144,6 +147,7 @@ fn one_frame_decides_the_film() {
             .map(|(candidates, counterpart)| FilmFrame {
                 candidates,
                 counterpart: *counterpart,
+                is_counterpart_doubtful: false,
             })
             .collect();
         let mut choices = [None; 16];

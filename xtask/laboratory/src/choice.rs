@@ -6,7 +6,7 @@ mod posed;
 mod reasons;
 pub mod report;
 
-pub use decide::{Decision, decide};
+pub use decide::{Decision, Known, decide};
 pub use mirrored::{doubt_mirrored, fit_flipped};
 pub use posed::{Beside, Posed, Posing};
 pub use reasons::Reasons;

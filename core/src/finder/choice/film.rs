@@ -27,6 +27,9 @@ const FREE_DEG: f64 = 2.0;
 /// jump. It decides where jumps do not: of a film and its mirror image.
 const RESIDUAL_DEG: f64 = 0.02;
 
+/// What a pose costs that a doubtful counterpart speaks against, degrees of jumps: less than decides.
+const BEHIND_DEG: f64 = 0.5;
+
 /// What is known of one frame of a film.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FilmFrame<'a> {
@@ -34,6 +37,8 @@ pub struct FilmFrame<'a> {
     pub candidates: &'a [RivalPose],
     /// The other component in this frame.
     pub counterpart: Option<Counterpart>,
+    /// Whether its pose is doubtful itself ([`super::ChoiceContext::is_counterpart_doubtful`]).
+    pub is_counterpart_doubtful: bool,
 }
 
 /// Working memory of [`choose_film`] for one frame.
@@ -89,7 +94,8 @@ pub fn choose_film(
         });
     }
     for ((frame, step), choice) in frames.iter().zip(&mut *steps).zip(&mut *choices) {
-        let contenders = Contenders::of(frame.candidates, frame.counterpart.as_ref());
+        let beside = frame.counterpart.as_ref();
+        let contenders = Contenders::of(frame.candidates, beside, frame.is_counterpart_doubtful);
         *step = FilmStep::new(&contenders);
         *choice = contenders.choice();
     }
@@ -110,9 +116,12 @@ impl FilmStep {
         for (number, &index) in contenders.open.iter().enumerate() {
             let residual = contenders.residual(index);
             step.open[number] = index;
+            if number >= contenders.preferred {
+                step.own[number] = BEHIND_DEG;
+            }
             // Also where both are zero or infinite.
             if residual > best {
-                step.own[number] = RESIDUAL_DEG * (residual / best - 1.0) / (DECISIVE_RATIO - 1.0);
+                step.own[number] += RESIDUAL_DEG * (residual / best - 1.0) / (DECISIVE_RATIO - 1.0);
             }
         }
         step

@@ -38,6 +38,7 @@ fn knee() -> (Pose, Pose) {
 
 const NOTHING: ChoiceContext<'_> = ChoiceContext {
     counterpart: None,
+    is_counterpart_doubtful: false,
     neighbours: &[],
 };
 
@@ -47,6 +48,7 @@ fn nothing_is_chosen_of_nothing_and_one_is_the_only_one() {
     let (femur, tibia) = knee();
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful: false,
         neighbours: &[femur],
     };
     let choice = choose(&[candidate(tibia, f64::NAN)], &context).expect("one");
@@ -61,6 +63,7 @@ fn a_decisive_residual_decides_against_tilt_and_time() {
     let wrong = mirrored(&tibia);
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful: false,
         neighbours: &[tibia],
     };
     let both = |px| [candidate(tibia, px), candidate(wrong, 1.0)];
@@ -70,6 +73,54 @@ fn a_decisive_residual_decides_against_tilt_and_time() {
     let choice = choose(&both(DECISIVE_RATIO - 1e-9), &context).expect("two");
     assert_eq!(choice.index, 0);
     assert!(matches!(choice.reason, Reason::Tilt { .. }));
+}
+
+/// Its tilt tells which to prefer, and the other stays open; what is reliable decides.
+#[test]
+fn a_femur_that_is_doubtful_itself_rules_out_nothing() {
+    let (femur, tibia) = knee();
+    let wrong = mirrored(&tibia);
+    let both = [candidate(tibia, 1.1), candidate(wrong, 1.0)];
+    let beside = |is_counterpart_doubtful| ChoiceContext {
+        counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful,
+        neighbours: &[],
+    };
+    let [good, doubtful] =
+        [false, true].map(|doubtful| choose(&both, &beside(doubtful)).expect("two"));
+    assert_eq!((good.index, good.open), (0, None));
+    assert_eq!((doubtful.index, doubtful.reason), (0, good.reason));
+    assert_eq!(
+        doubtful.open.map(|open| (open.index, open.other_px)),
+        Some((1, 1.0))
+    );
+    let near = ChoiceContext {
+        neighbours: &[tibia],
+        ..beside(true)
+    };
+    assert!(choose(&both, &near).expect("two").is_decided());
+    // In a film: of one frame alone nothing is decided, beside one that is decided by itself the film may.
+    let frame = |candidates, is_counterpart_doubtful| FilmFrame {
+        candidates,
+        counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful,
+    };
+    let decided = |film: &[FilmFrame<'_>]| {
+        let mut choices = std::vec![None; film.len()];
+        choose_film(
+            film,
+            &mut std::vec![FilmStep::default(); film.len()],
+            &mut choices,
+        )
+        .expect("as many");
+        let first = choices[0].expect("one");
+        (first.index, first.is_decided())
+    };
+    assert_eq!(decided(&[frame(&both, true); 3]), (0, false));
+    assert_eq!(
+        decided(&[frame(&both, true), frame(&both, false)]),
+        (0, true)
+    );
 }
 
 /// A tray turned by 79 degrees fits better and tilts less.
@@ -82,6 +133,7 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
     };
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let (wrong, tilted) = (candidate(turned(-79.0), 1.0), candidate(right, 1.2));
@@ -113,12 +165,14 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
     let film = [FilmFrame {
         candidates: &[wrong, candidate(turned(-75.0), 1.1)],
         counterpart: context.counterpart,
+        is_counterpart_doubtful: false,
     }];
     let mut choices = [None];
     choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
     assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_some()));
     let sought = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(turned(-79.0))),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let choice = choose(&[candidate(femur, 1.0)], &sought).expect("one");
@@ -146,6 +200,7 @@ fn the_smaller_tilt_decides_in_either_role() {
     assert!(wrong_deg.abs() - right_deg.abs() > TILT_MARGIN_DEG);
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let candidates = [candidate(wrong, 0.9), candidate(tibia, 1.0)];
@@ -166,6 +221,7 @@ fn the_smaller_tilt_decides_in_either_role() {
     };
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(tibia)),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let femurs = [candidate(tilted(6.3), 0.9), candidate(tilted(-1.2), 1.0)];
@@ -184,6 +240,7 @@ fn tilts_of_opposite_sign_and_like_size_leave_it_to_time() {
     let neighbours = [pose(0.0, -3.0, 0.0), pose(0.0, -5.0, 0.0)];
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(tibia)),
+        is_counterpart_doubtful: false,
         neighbours: &neighbours,
     };
     let choice = choose(&femurs, &context).expect("two");
@@ -203,6 +260,7 @@ fn what_nothing_tells_apart_is_said_to_be_undecided() {
     let neighbours = [pose(0.0, 0.5, 0.0)];
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
+        is_counterpart_doubtful: false,
         neighbours: &neighbours,
     };
     let choice = choose(&candidates, &context).expect("two");
@@ -226,6 +284,7 @@ fn each_rule_leaves_the_rest_to_the_next() {
     let neighbours = [pose(0.0, 1.0, 0.0)];
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
+        is_counterpart_doubtful: false,
         neighbours: &neighbours,
     };
     let choice = choose(&candidates, &context).expect("four");
@@ -245,6 +304,7 @@ fn a_rule_that_leaves_two_is_the_reason_and_the_other_is_named() {
     ];
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let choice = choose(&candidates, &context).expect("four");
@@ -265,6 +325,7 @@ fn of_many_the_best_few_contend() {
     candidates.push(candidate(pose(0.0, 1.0, 0.0), 1.1));
     let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
+        is_counterpart_doubtful: false,
         neighbours: &[],
     };
     let choice = choose(&candidates, &context).expect("many");
@@ -309,7 +370,7 @@ properties! {
             1 => Some(Counterpart::Femur(other)),
             _ => Some(Counterpart::Tibia(other)),
         };
-        let context = ChoiceContext { counterpart, neighbours: &neighbours };
+        let context = ChoiceContext { counterpart, is_counterpart_doubtful: false, neighbours: &neighbours };
         match choose(&candidates, &context) {
             None => prop_assert!(candidates.is_empty()),
             Some(choice) => {
@@ -330,7 +391,7 @@ properties! {
             .map(|(&px, &[z, x, y])| candidate(pose(z, x, y), px)).collect();
         let (femur, tibia) = knee();
         let neighbours = [tibia];
-        let context = ChoiceContext { counterpart: Some(Counterpart::Femur(femur)), neighbours: &neighbours };
+        let context = ChoiceContext { counterpart: Some(Counterpart::Femur(femur)), is_counterpart_doubtful: false, neighbours: &neighbours };
         let first = choose(&candidates, &context).expect("some");
         let chosen = candidates[first.index];
         let turn = turn % candidates.len();
@@ -351,7 +412,7 @@ properties! {
         ];
         let neighbours = [pose(0.0, near, 0.0)];
         let tibia = pose(0.0, 0.0, 0.0);
-        let context = ChoiceContext { counterpart: Some(Counterpart::Tibia(tibia)), neighbours: &neighbours };
+        let context = ChoiceContext { counterpart: Some(Counterpart::Tibia(tibia)), is_counterpart_doubtful: false, neighbours: &neighbours };
         let Choice { index, reason, open, no_knee_deg } = choose(&candidates, &context).expect("two");
         let (chosen, other) = (index, 1 - index);
         let px = |k: usize| candidates[k].residual_px;

@@ -68,10 +68,10 @@ fn straight_lines_stay_and_runs_do_not_hear_of_each_other() {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
     }
     // Shorter than the filter remembers, too.
-    for frames in 1..90 {
+    for frames in 1..130 {
         let line: Vec<f64> = (0..frames).map(|k| 33.0 + 3.0 * f64::from(k)).collect();
         for (a, b) in line.iter().zip(smoothed(&line, 1.0, 30.0)) {
-            assert!((a - b).abs() < 1e-9, "{frames}: {a} {b}");
+            assert!((a - b).abs() < 1e-4, "{frames}: {a} {b}");
         }
     }
     let run: Vec<f64> = (0..20).map(|k| libm::sin(f64::from(k * k))).collect();

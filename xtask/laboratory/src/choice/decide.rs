@@ -38,10 +38,9 @@ impl Decision {
         Some(Lying::new(pose, self.chosen.covariance.as_ref()))
     }
 
-    /// The pose where it is to be relied on: what is doubtful itself rules out no pose of the other component.
-    pub fn reliable(&self) -> Option<Pose> {
-        let is_good = matches!(self.verdict, Verdict::Good);
-        is_good.then_some(self.chosen.pose)
+    /// Whether the pose is doubtful.
+    pub fn is_doubtful(&self) -> bool {
+        matches!(self.verdict, Verdict::Doubtful(_))
     }
 }
 
@@ -74,6 +73,15 @@ impl fmt::Display for Decision {
     }
 }
 
+/// The other component in a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// Its pose, in the field's axes.
+    pub counterpart: Counterpart,
+    /// Whether that is doubtful itself.
+    pub is_doubtful: bool,
+}
+
 /// Chooses a pose in every frame of a sequence, all of them together ([`choose_film`]);
 /// `counterparts` are the other component's poses, a frame each, where they are known. `axes` rotates the field's axes into
 /// the model's ([`fluoropose::mesh::anatomy::field_axes`]); counterparts have the field's. `None` for frames without candidates.
@@ -82,7 +90,7 @@ impl fmt::Display for Decision {
 /// Those of [`choose_film`], which there are none of.
 pub fn decide(
     film: &[FrameFound],
-    counterparts: &[Option<Counterpart>],
+    counterparts: &[Option<Known>],
     axes: &Pose,
 ) -> Result<Vec<Option<Decision>>> {
     let in_field_axes = |rival: RivalPose| RivalPose {
@@ -99,9 +107,13 @@ pub fn decide(
     let frames: Vec<FilmFrame<'_>> = candidates
         .iter()
         .enumerate()
-        .map(|(frame, candidates)| FilmFrame {
-            candidates,
-            counterpart: counterparts.get(frame).copied().flatten(),
+        .map(|(frame, candidates)| {
+            let known = counterparts.get(frame).copied().flatten();
+            FilmFrame {
+                candidates,
+                counterpart: known.map(|known| known.counterpart),
+                is_counterpart_doubtful: known.is_some_and(|known| known.is_doubtful),
+            }
         })
         .collect();
     let mut choices = vec![None; frames.len()];

@@ -1,13 +1,12 @@
 //! From the masks of a sequence to a pose in each frame: what a folder of masks and masks in memory have in common.
 
 use anyhow::{Context, Result};
-use fluoropose::finder::choice::Counterpart;
 use fluoropose::joint::beside::{Lying, Middles};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 
-use super::decide::{Decision, decide};
+use super::decide::{Decision, Known, decide};
 use super::mirrored::doubt_mirrored;
 use super::report::{FrameReport, report};
 use crate::files::Role;
@@ -39,7 +38,7 @@ pub struct Beside<'p> {
     pub role: Role,
     /// The other's poses, a row a frame.
     pub poses: Vec<Option<Pose>>,
-    /// Rows of those that are doubtful: they rule out no pose.
+    /// Rows of those that are doubtful themselves: they rule out no pose.
     pub doubtful: Vec<usize>,
     /// The other's model: tilts are then taken in the axes that both shapes tell, else in those of the files.
     pub model: Option<Model<'p>>,
@@ -115,14 +114,16 @@ impl Posing<'_> {
 }
 
 impl Beside<'_> {
-    fn counterparts(&self) -> Result<Vec<Option<Counterpart>>> {
+    fn counterparts(&self) -> Result<Vec<Option<Known>>> {
         let axes = match &self.model {
             Some(model) => shape_axes(model, self.role.other())?,
             None => Pose::IDENTITY,
         };
         let against = |(row, pose): (usize, &Option<Pose>)| {
-            let reliable = pose.filter(|_| !self.doubtful.contains(&row));
-            reliable.map(|pose| self.role.against(pose.compose(&axes)))
+            pose.map(|pose| Known {
+                counterpart: self.role.against(pose.compose(&axes)),
+                is_doubtful: self.doubtful.contains(&row),
+            })
         };
         Ok(self.poses.iter().enumerate().map(against).collect())
     }

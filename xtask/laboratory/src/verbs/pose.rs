@@ -74,7 +74,7 @@ pub struct Args {
     /// Which component this is; needed for --counterpart
     #[arg(long, value_enum, requires = "counterpart")]
     role: Option<Role>,
-    /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart; those that the table beside the file calls doubtful tell nothing
+    /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart; those that the table beside the file calls doubtful rule out nothing
     #[arg(long, value_name = "FILE", requires = "role")]
     counterpart: Option<PathBuf>,
     /// The other component's model: the tilt is then taken in the axes that both shapes tell, else in those of the files

@@ -28,6 +28,7 @@ fn chosen(film: &[List<RivalPose>]) -> List<Option<Choice>> {
     let frame = |candidates| FilmFrame {
         candidates,
         counterpart: None,
+        is_counterpart_doubtful: false,
     };
     let frames: List<_> = film.iter().map(|all| frame(all.as_slice())).collect();
     let mut choices = vec![None; frames.len()];
@@ -231,12 +232,12 @@ properties! {
         }
         let counterpart = Some(Counterpart::Femur(pose(femur, 0.0)));
         let frames: List<_> = film.iter()
-            .map(|candidates| FilmFrame { candidates, counterpart }).collect();
+            .map(|candidates| FilmFrame { candidates, counterpart, is_counterpart_doubtful: false }).collect();
         let mut choices = vec![None; frames.len()];
         let mut steps = vec![FilmStep::default(); frames.len()];
         choose_film(&frames, &mut steps, &mut choices).expect("memory as needed");
         for (frame, choice) in frames.iter().zip(choices) {
-            let context = super::super::ChoiceContext { counterpart, neighbours: &[] };
+            let context = super::super::ChoiceContext { counterpart, is_counterpart_doubtful: false, neighbours: &[] };
             let alone = choose(frame.candidates, &context);
             if alone.is_none_or(|alone| alone.is_decided()) {
                 prop_assert_eq!(choice, alone);

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::reference::Reference;
 use super::request::Request;
-use crate::choice::{Decision, decide};
+use crate::choice::{Decision, Known, decide};
 use crate::files::{Component, MaskBuffer, Role, Study};
 use crate::finding::misfits::Misfits;
 use crate::finding::{
@@ -107,7 +107,7 @@ pub(super) fn find_parts<'s>(
         by_film(&mut parts, study, request)?;
     }
     let is = |role: Role| move |part: &Part<'_>| part.component.role() == Some(role);
-    let mut femurs: Vec<(String, Vec<Option<Pose>>)> = Vec::new();
+    let mut femurs: Vec<(String, Vec<Option<Known>>)> = Vec::new();
     for part in parts.iter_mut().filter(|part| !is(Role::Tibia)(part)) {
         for found in &mut part.found {
             found.decisions = decide(&found.frames, &[], &Pose::IDENTITY)?;
@@ -118,9 +118,14 @@ pub(super) fn find_parts<'s>(
             continue;
         };
         let poses = part.found.iter().map(|found| {
-            let reliable = |decision: &Option<Decision>| decision.as_ref()?.reliable();
-            let poses = found.decisions.iter().map(reliable);
-            let poses = poses.map(|pose| pose.map(|pose| pose.compose(&axes)));
+            let known = |decision: &Option<Decision>| {
+                let decision = decision.as_ref()?;
+                Some(Known {
+                    counterpart: Counterpart::Femur(decision.pose()?.compose(&axes)),
+                    is_doubtful: decision.is_doubtful(),
+                })
+            };
+            let poses = found.decisions.iter().map(known);
             (found.source.clone(), poses.collect())
         });
         femurs.extend(poses);
@@ -170,8 +175,8 @@ fn sources_of(parts: &[Part<'_>]) -> BTreeSet<String> {
 }
 
 impl Found {
-    /// Chooses tibial poses with the femoral ones of a source known that are to be relied on, those in the field's axes.
-    fn decide_with(&mut self, femurs: &[(String, Vec<Option<Pose>>)], axes: &Pose) -> Result<()> {
+    /// Chooses tibial poses with the femoral ones of a source known.
+    fn decide_with(&mut self, femurs: &[(String, Vec<Option<Known>>)], axes: &Pose) -> Result<()> {
         let fitting = || {
             femurs
                 .iter()
@@ -179,10 +184,7 @@ impl Found {
         };
         let same = fitting().find(|(source, _)| *source == self.source);
         let femur = same.or_else(|| fitting().next());
-        let counterparts = femur.map_or(Vec::new(), |(_, poses)| {
-            let known = |pose: &Option<Pose>| pose.map(Counterpart::Femur);
-            poses.iter().map(known).collect()
-        });
+        let counterparts = femur.map_or(Vec::new(), |(_, known)| known.clone());
         self.femur = femur.map(|(source, _)| source.clone());
         self.decisions = decide(&self.frames, &counterparts, axes)?;
         Ok(())

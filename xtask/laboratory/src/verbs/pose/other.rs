@@ -75,7 +75,7 @@ fn doubtful_rows(file: &Path, poses: &[Option<Pose>]) -> Result<Vec<usize>> {
         );
         let tables: Vec<String> = tables.collect();
         println!(
-            "{count} of the {} poses in {} decide nothing: {} does not call them good",
+            "{count} of the {} poses in {} rule out nothing: {} does not call them good",
             poses.len(),
             file.display(),
             tables.join(", ")
