@@ -211,11 +211,16 @@ impl JointFilm {
         origins_told(self.rows.iter().filter_map(numbers))
     }
 
-    /// How many frames with a joint are doubtful: one without has nothing to doubt, and its reason is why it has none.
+    /// The frames with a joint that are doubtful, and why: one without has nothing to doubt, and its reason is why it has none.
+    pub fn doubts(&self) -> impl Iterator<Item = (&JointRow, &str)> {
+        let joints = self.rows.iter().filter(|row| row.joint.is_some());
+        joints.filter_map(|row| Some((row, row.doubt.as_deref()?)))
+    }
+
+    /// How many those are.
     #[must_use]
     pub fn doubtful(&self) -> usize {
-        let doubtful = |row: &&JointRow| row.joint.is_some() && row.doubt.is_some();
-        self.rows.iter().filter(doubtful).count()
+        self.doubts().count()
     }
 
     /// How many frames have a pose of both components.

@@ -138,13 +138,9 @@ pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
 }
 
 fn doubts_by_time(film: &JointFilm) -> impl Iterator<Item = String> {
-    let doubtful = film.rows.iter().filter(|row| row.joint.is_some());
-    doubtful.filter_map(|row| {
-        let (time, doubt) = (seconds(film, row)?, row.doubt.as_ref()?);
-        Some(format!(
-            "doubtful: time {time}, frame {}: {doubt}",
-            row.number
-        ))
+    film.doubts().filter_map(|(row, doubt)| {
+        let (time, frame) = (seconds(film, row)?, row.number);
+        Some(format!("doubtful: time {time}, frame {frame}: {doubt}"))
     })
 }
 

@@ -177,46 +177,58 @@ fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
     Ok(films.into_iter().map(group).collect())
 }
 
-/// The rows of all `track.csv` that are not good, with the study before them, and joints that are doubtful though no pose is.
+/// What is not good of all studies, a row each.
 fn doubtful(done: &[Done<'_>], results: &Path) -> Result<String> {
     let mut out = String::from("study,frame,component,state,verdict,because\n");
     for Done { entry, .. } in done {
         let folder = results.join(&entry.name);
-        let path = folder.join("track.csv");
-        let mut told = BTreeSet::new();
-        for line in read_text(&path)?.lines().skip(1) {
-            let fields = csv_fields(line);
-            let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
-                bail!("{}: a row is cut off", path.display());
-            };
-            if verdict != "good" {
-                told.insert(frame.clone());
-                let texts = [&entry.name, component, because];
-                let [study, component, because] = texts.map(|text| quoted(plain(text)));
-                out.push_str(&format!(
-                    "{study},{frame},{component},{state},{verdict},{because}\n"
-                ));
-            }
-        }
-        let joint = folder.join(JOINT);
-        if !joint.is_file() {
-            continue;
-        }
-        let film = read::film(&read_text(&joint)?);
-        let film = film.with_context(|| format!("in {}", joint.display()))?;
-        for row in film.rows.iter().filter(|row| row.joint.is_some()) {
-            let frame = row.number.to_string();
-            if let Some(doubt) = row.doubt.as_ref().filter(|_| !told.contains(&frame)) {
-                let [study, because] = [&entry.name, doubt].map(|text| quoted(plain(text)));
-                out.push_str(&format!("{study},{frame},\"joint\",,doubtful,{because}\n"));
-            }
+        let named = quoted(plain(&entry.name));
+        for row in not_good(&folder)? {
+            out.push_str(&format!("{named},{row}\n"));
         }
     }
     Ok(out)
 }
 
+/// The rows of a study's `track.csv` that are not good, and its joints that are doubtful though no pose of their frame is.
+fn not_good(folder: &Path) -> Result<Vec<String>> {
+    let path = folder.join("track.csv");
+    let (mut rows, mut told) = (Vec::new(), BTreeSet::new());
+    for line in read_text(&path)?.lines().skip(1) {
+        let fields = csv_fields(line);
+        let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
+            bail!("{}: a row is cut off", path.display());
+        };
+        if verdict != "good" {
+            let [component, because] = [component, because].map(|text| quoted(plain(text)));
+            rows.push(format!("{frame},{component},{state},{verdict},{because}"));
+            told.insert(frame.clone());
+        }
+    }
+    let joint = folder.join(JOINT);
+    if !joint.is_file() {
+        return Ok(rows);
+    }
+    let film = read::film(&read_text(&joint)?);
+    let film = film.with_context(|| format!("in {}", joint.display()))?;
+    for (row, doubt) in film.doubts() {
+        let frame = row.number.to_string();
+        if !told.contains(&frame) {
+            let because = quoted(plain(doubt));
+            rows.push(format!("{frame},\"joint\",,doubtful,{because}"));
+        }
+    }
+    Ok(rows)
+}
+
 #[cfg(test)]
 mod tests {
+    use fluoropose::Side;
+    use fluoropose::joint::JointFrame;
+    use fluoropose::joint::numbers::NUMBERS;
+    use fluoropose::joint::shared::ERRORS;
+    use fluoropose_report::{JointFilm, JointRow, write};
+
     use super::*;
 
     #[test]
@@ -251,5 +263,39 @@ mod tests {
             told.to_string().contains("do it again with batch"),
             "{told}"
         );
+    }
+
+    #[test]
+    fn a_joint_that_no_knee_has_is_told_though_its_poses_are_good() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-joints-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let track = "frame,component,state,verdict,because\n1,femur,followed,good,\n2,femur,doubtful,doubtful,\"a rim\"\n3,femur,followed,good,\n";
+        std::fs::write(folder.join("track.csv"), track).expect("a file");
+        let alone = not_good(&folder).expect("a table");
+        assert_eq!(alone, ["2,\"femur\",doubtful,doubtful,\"a rim\""]);
+        let joint = JointFrame {
+            numbers: [0.0; NUMBERS],
+            deviations: None,
+            shared: [[0.0; NUMBERS]; ERRORS],
+        };
+        let row = |number, doubt: Option<&str>| {
+            JointRow::new(number, Some(joint), doubt.map(str::to_owned))
+        };
+        let film = JointFilm {
+            name: "k".to_owned(),
+            side: Side::Left,
+            plate_depth_mm: 0.0,
+            plate_width_mm: 0.0,
+            plate_outline: Vec::new(),
+            frames_per_s: None,
+            cutoff_hz: None,
+            remarks: Vec::new(),
+            has_verdicts: true,
+            rows: vec![row(1, None), row(2, Some("a rim")), row(3, Some("80 mm"))],
+        };
+        std::fs::write(folder.join(JOINT), write::table(&film)).expect("a file");
+        let both = not_good(&folder).expect("tables");
+        std::fs::remove_dir_all(&folder).expect("it was there");
+        assert_eq!(both[1..], ["3,\"joint\",,doubtful,\"80 mm\""]);
     }
 }

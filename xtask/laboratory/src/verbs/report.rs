@@ -101,9 +101,7 @@ pub struct Reported {
 impl Reported {
     /// Frames whose joint is doubtful, from 0.
     pub fn doubtful_frames(&self) -> impl Iterator<Item = usize> {
-        let rows = self.film.rows.iter();
-        let doubtful = rows.filter(|row| row.joint.is_some() && row.doubt.is_some());
-        doubtful.map(|row| row.number - 1)
+        self.film.doubts().map(|(row, _)| row.number - 1)
     }
 }
 

@@ -50,7 +50,7 @@ pub struct Manifest {
     pub inputs: Inputs,
     /// Frames of the film.
     pub frames: usize,
-    /// Frames of which a component is doubtful or has no pose.
+    /// Frames of which a component is doubtful or has no pose, or that show what no knee does.
     pub doubtful: usize,
     /// SHA-256 of each file of results.
     pub outputs: BTreeMap<String, String>,
