@@ -269,6 +269,33 @@ fn row_numbers(relative: &Pose, joint: &[f64]) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
 
+    #[test]
+    fn axes_of_one_component_alone_are_refused() {
+        let file = std::env::temp_dir().join(format!("fluoropose-axes-{}.jts", std::process::id()));
+        std::fs::write(&file, "JT_EULER_312\n1,2,-900,0,0,0\n").unwrap();
+        let out = file.with_extension("csv");
+        let args = |femur_axes: bool, tibia_axes: bool| Args {
+            femur: file.clone(),
+            tibia: file.clone(),
+            femur_model: None,
+            tibia_model: None,
+            femur_axes: femur_axes.then(|| "x y z".to_owned()),
+            tibia_axes: tibia_axes.then(|| "x y z".to_owned()),
+            side: Side::Right,
+            out: out.clone(),
+        };
+        for (femur, tibia, words) in [
+            (true, false, "of the femoral"),
+            (false, true, "of the tibial"),
+        ] {
+            let error = run(args(femur, tibia)).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+        run(args(true, true)).unwrap();
+        std::fs::remove_file(file).unwrap();
+        std::fs::remove_file(out).unwrap();
+    }
+
     /// Six of the relative pose, six of the field, three of Grood and Suntay.
     const NUMBERS_WITHOUT_MODELS: usize = 15;
 

@@ -154,6 +154,13 @@ const FAULTY: &[(&str, [&str; 2])] = &[
         ],
     ),
     (
+        "STUDY;FEMUR;attenuation = -1.08\n",
+        [
+            "line 6: component femur: attenuation must be a number above 0",
+            "it is -1.08",
+        ],
+    ),
+    (
         "STUDY;FEMUR;nominal = [0.0]\n",
         [
             "line 6: component femur: nominal must be two numbers",

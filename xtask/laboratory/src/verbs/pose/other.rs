@@ -83,3 +83,25 @@ fn doubtful_rows(file: &Path, poses: &[Option<Pose>]) -> Result<Vec<usize>> {
     }
     Ok(rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::pose::EulerPose;
+
+    #[test]
+    fn what_the_table_beside_a_pose_file_calls_doubtful_is_told_by_its_row() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-other-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("femur.jts");
+        let pose = |x: f64| Some(Pose::from(EulerPose::from([x, 0.0, -900.0, 0.0, 0.0, 0.0])));
+        let poses = [pose(1.0), pose(2.0), None];
+        assert_eq!(doubtful_rows(&file, &poses).unwrap(), [0usize; 0]);
+        let table =
+            "frame,verdict,because\n1,good,\"\"\n2,doubtful,\"a rim\"\n3,none,\"no edge\"\n";
+        std::fs::write(folder.join("femur.csv"), table).unwrap();
+        assert_eq!(doubtful_rows(&file, &poses).unwrap(), [1]);
+        assert!(doubtful_rows(&file, &[pose(1.0); 4]).is_err());
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -263,16 +263,27 @@ impl Body {
         };
         let (model, remarks) = component.read_model_and_remarks()?;
         let told = |remark| format!("{}: {remark}", component.model.display());
+        let poses = match poses {
+            // Its covariances are put to the frames with them.
+            Some(_) => read_poses(&file)?,
+            None => read_poses_of(&file, study.frames.as_deref())?,
+        };
+        if let Some((&last, _)) = uncertain.last_key_value() {
+            ensure!(
+                last < poses.len(),
+                "{} has a frame {}, and {} has {} poses",
+                beside.display(),
+                last + 1,
+                file.display(),
+                poses.len()
+            );
+        }
         Ok(Self {
             name: component.name.clone(),
             stated_axes: component.axes.clone(),
             model,
             of_file: remarks.into_iter().map(told).collect(),
-            poses: match poses {
-                // Its covariances are put to the frames with them.
-                Some(_) => read_poses(&file)?,
-                None => read_poses_of(&file, study.frames.as_deref())?,
-            },
+            poses,
             uncertain,
         })
     }
@@ -331,6 +342,30 @@ pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn covariances_that_are_none_are_refused() {
+        let table = |frame: &str, first: &str| {
+            let identity = |k: usize| if k.is_multiple_of(7) { "1" } else { "0" };
+            let numbers: Vec<&str> = (0..36).map(identity).collect();
+            let row = numbers.join(",").replacen('1', first, 1);
+            covariances(&format!("frame,c11\n{frame},{row}\n"))
+        };
+        assert_eq!(table("2", "0.5").unwrap()[&1].covariance.matrix[0][0], 0.5);
+        for (frame, first, words) in [
+            ("2", "nan", "holds no covariance"),
+            ("2", "inf", "holds no covariance"),
+            ("2", "-1", "holds no covariance"),
+            ("0", "1", "names no frame"),
+            ("1.5", "1", "names no frame"),
+        ] {
+            let error = table(frame, first).err().map(|error| error.to_string());
+            assert!(
+                error.is_some_and(|error| error.contains(words)),
+                "{frame} {first}"
+            );
+        }
+    }
 
     #[test]
     fn what_is_told_of_both_components_stands_in_one_line() {

@@ -161,9 +161,30 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     check_group(&folder, column);
     read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
+    check_filter(&folder, args(3.0));
     check_overlay(&folder, args(3.0));
     check_impossible(&folder);
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// What is doubtful has no filtered numbers, wherever it lies, and no part in those beside it.
+fn check_filter(folder: &Path, args: Args) {
+    let filtered = || {
+        let table = std::fs::read_to_string(folder.join("out/joint.csv")).unwrap();
+        read::table(&table)
+            .unwrap()
+            .column("filtered_flexion_deg")
+            .unwrap()
+    };
+    let before = filtered();
+    let [_, mut tibia] = poses();
+    let away = pose([0.0; 3], [40.0, 0.0, 0.0]);
+    tibia[2] = tibia[2].map(|known| Pose::from(known).compose(&away).into());
+    write_poses(folder, "tibia", &tibia);
+    run(args).unwrap();
+    assert!(before[2].is_nan() && before[3].is_finite());
+    assert_eq!(format!("{:?}", filtered()), format!("{before:?}"));
+    write_poses(folder, "tibia", &poses()[1]);
 }
 
 /// Frames that the study names get their outlines and curves; as many as there are poses.
