@@ -144,6 +144,8 @@ pageTest('what was done to a model', async (page, t) => {
     await page.getByRole('button', { name: /^Femur: / }).click();
     await page.getByRole('dialog', { name: 'Femur' }).getByRole('list', { name: 'About the model' }).getByText(/^The surface has holes/).waitFor();
     await page.keyboard.press('Escape');
+    // Once, on a busy machine, no file chooser came where the page was pressed at that moment.
+    await page.getByRole('dialog', { name: 'Femur' }).waitFor({ state: 'hidden' });
   });
 
   await step(page, t, 'a size that is no knee’s is said with the unit that it may be in', async () => {
