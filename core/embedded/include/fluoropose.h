@@ -29,6 +29,7 @@ typedef int32_t fluoropose_status;
 #define FLUOROPOSE_NO_POSE 8    /* no pose explains the silhouette */
 #define FLUOROPOSE_ORDER 9      /* a call came before the one that it goes on from, or there is no such candidate */
 #define FLUOROPOSE_MORE 10      /* slices are left: call fluoropose_go_on again */
+#define FLUOROPOSE_NEAR 11      /* what a search was to begin near is no pose */
 
 /* A session; it lies at the beginning of the memory that was lent. */
 typedef struct fluoropose fluoropose;
@@ -127,6 +128,12 @@ fluoropose_status fluoropose_find(fluoropose *finder);
 /* The same in slices, with the same answer to the last bit: FLUOROPOSE_MORE as long as some are left. A slice is the search
  * of the library, or one drawing of the model with its readings. */
 fluoropose_status fluoropose_go_on(fluoropose *finder, uint32_t slices);
+
+/* After the silhouette, before the search: it begins near a pose of the frame before, of which rotation, translation and misfit are read.
+ * Where that leads to a good one which leaves at most twice as much (0.2 pixels where that is less), the library is not searched and no pose far away is among the
+ * candidates; where it does not, the search is as if this had not been called. Of a film, misfit_px is best that of a frame that was
+ * searched as a whole. */
+fluoropose_status fluoropose_near(fluoropose *finder, const fluoropose_candidate *before);
 
 /* What was found; `found->verdict` is 0 where nothing was. */
 fluoropose_status fluoropose_found_of(fluoropose *finder, fluoropose_found *found);

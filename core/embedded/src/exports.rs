@@ -296,6 +296,26 @@ pub unsafe extern "C" fn fluoropose_row(
     opened.keep(added)
 }
 
+/// Begins the search near a pose of the frame before.
+///
+/// # Safety
+/// `finder` is an open session that nothing else uses, `before` leads to a candidate, or they are null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fluoropose_near(
+    finder: *mut Opened,
+    before: *const CandidateNumbers,
+) -> Status {
+    // SAFETY: the caller's promise.
+    let (Some(opened), before) = (unsafe { (opened(finder), list(before, 1)) }) else {
+        return Status::Pointer;
+    };
+    let Some([before]) = before else {
+        return opened.keep(Err(Failure::Pointer));
+    };
+    let set = opened.session.near(&before.pose(), before.misfit_px);
+    opened.keep(set)
+}
+
 /// Finds the poses that explain the silhouette.
 ///
 /// # Safety

@@ -35,6 +35,8 @@ pub enum Status {
     Order = 9,
     /// `FLUOROPOSE_MORE`.
     More = 10,
+    /// `FLUOROPOSE_NEAR`.
+    Near = 11,
 }
 
 /// Why there is no answer; displayed, a sentence.
@@ -83,6 +85,11 @@ pub enum Failure {
     /// No pose explains it.
     #[error(transparent)]
     Find(#[from] FindError),
+    /// What a search was to begin at is no pose.
+    #[error(
+        "what the search was to begin near is no pose: its rotation is none, or a number is none"
+    )]
+    Near,
     /// A call came before the one that it goes on from.
     #[error("a silhouette comes first, then the search, then what it found")]
     Order,
@@ -101,6 +108,7 @@ impl Failure {
             Self::Rows(_) | Self::Width { .. } => Status::Rows,
             Self::Silhouette(_) | Self::Room { .. } => Status::Silhouette,
             Self::Find(_) => Status::NoPose,
+            Self::Near => Status::Near,
             Self::Order => Status::Order,
         }
     }

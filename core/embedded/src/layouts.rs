@@ -4,7 +4,7 @@ use fluoropose::Camera;
 use fluoropose::camera::CameraError;
 use fluoropose::finder::{Candidate, Decision, Verdict};
 use fluoropose::image::crop::Crop;
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 
 pub use fluoropose::Point as PointNumbers;
 
@@ -146,6 +146,16 @@ pub struct CandidateNumbers {
     pub drawings: u32,
     /// Whether `covariance` is known.
     pub has_covariance: u32,
+}
+
+impl CandidateNumbers {
+    /// The pose by its matrix.
+    pub(crate) fn pose(&self) -> Pose {
+        Pose {
+            rotation: self.rotation,
+            translation: self.translation_mm,
+        }
+    }
 }
 
 impl From<&Candidate> for CandidateNumbers {

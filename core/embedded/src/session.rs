@@ -14,7 +14,7 @@ use fluoropose::refine::{BorderPixel, RefineError};
 use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
 use fluoropose::{
-    Camera, FinderMemory, Found, Goal, Mask, Outline, Point, RefineMemory, RefineOptions,
+    Camera, FinderMemory, Found, Goal, Mask, Outline, Point, Pose, RefineMemory, RefineOptions,
     Silhouette, Workspace,
 };
 
@@ -47,6 +47,9 @@ enum Seen {
     /// The silhouette in a part of it, whose pixels are in memory.
     Part(Crop),
 }
+
+/// How far a rotation that comes from C may be from one: numbers of single precision are.
+const RIGID: f64 = 1e-5;
 
 /// Crossings of all rows that memory is reckoned for: 32 bits hold what follows from them.
 const CROSSINGS: usize = 1 << 26;
@@ -187,6 +190,24 @@ impl<'m> Session<'m> {
             self.forget();
         }
         added
+    }
+
+    /// The search for the silhouette that was taken begins at a pose that is known, which left `misfit_px` pixels on the frame before; see
+    /// [`FrameSearch::restart_near`]. One that was begun is given up.
+    ///
+    /// # Errors
+    /// [`Failure::Order`] before a silhouette; [`Failure::Near`] for what is no pose.
+    pub fn near(&mut self, pose: &Pose, misfit_px: f64) -> Result<(), Failure> {
+        (self.searches, self.decision) = (false, None);
+        if let Seen::Nothing = self.seen {
+            return Err(Failure::Order);
+        }
+        if !pose.is_rigid(RIGID) || !(misfit_px >= 0.0) {
+            return Err(Failure::Near);
+        }
+        self.search.restart_near(pose, misfit_px);
+        self.searches = true;
+        Ok(())
     }
 
     /// Finds the poses that explain the silhouette, chooses among them and judges the choice: so many slices of it, which begin

@@ -68,7 +68,7 @@ pub(super) fn add_assessed(
         let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
         turn < SAME_DEG
     };
-    if located.is_none() || candidates.iter().any(same) {
+    if candidates.iter().any(same) {
         return Ok(());
     }
     let assessment = assess(model, &[*view], &found.refined, memory)?;

@@ -1,6 +1,7 @@
 //! From what a camera saw to the poses that explain it.
 
 use core::future::Future;
+use core::iter::once;
 use core::task::{Poll, ready};
 
 use heapless::Vec;
@@ -14,11 +15,14 @@ use super::first::{FirstPoses, FirstSearch, add_of_pieces};
 use super::memory::FinderMemory;
 use super::rivals::{Rivals, worth_refining};
 use super::rounds::Subject;
-use super::verdict::{Decision, Limits, contenders, judge};
+use super::usual::usual_px;
+use super::verdict::{Decision, Limits, Verdict, contenders, judge, judge_fit};
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
+use crate::locate::partial::known_fraction;
 use crate::locate::rerank::Reranked;
 use crate::pace::{Pace, in_slices, to_the_end};
+use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
 use crate::shortlist::keep;
 
@@ -142,14 +146,25 @@ pub struct FrameSearch {
     first: FirstSearch,
     rivals: Rivals,
     at: At,
+    near: Option<Near>,
     /// How many of the refined poses were assessed.
     assessed: usize,
+}
+
+/// Where a search looks first.
+#[derive(Clone, Copy)]
+struct Near {
+    pose: Pose,
+    /// What may be left there, pixels.
+    limit_px: f64,
 }
 
 /// How far a search is.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
     Start,
+    /// The pose to look at first is refined.
+    Near,
     /// First poses are looked for.
     First,
     /// First poses are refined.
@@ -174,6 +189,7 @@ impl FrameSearch {
             first: FirstSearch::new(),
             rivals: Rivals::new(),
             at: At::Start,
+            near: None,
             assessed: 0,
         }
     }
@@ -181,7 +197,20 @@ impl FrameSearch {
     /// As new: what was done is forgotten.
     pub fn restart(&mut self) {
         self.first.restart();
-        self.at = At::Start;
+        (self.at, self.near) = (At::Start, None);
+    }
+
+    /// The same, to look first where the component is likely to be, as it was on the frame before: at `pose`, which left `misfit_px`
+    /// pixels there ([`Candidate::misfit`]). Where that pose and its mirror images lead to one that fits well and leaves what is
+    /// usual of the component ([`super::FilmMisfits`]), the library is not searched: what is far from them is not among the
+    /// candidates. Otherwise, and where a part of the outline is unknown or [`Goal::Library`] is wanted, all is as if no pose had been
+    /// given.
+    pub fn restart_near(&mut self, pose: &Pose, misfit_px: f64) {
+        self.restart();
+        self.near = Some(Near {
+            pose: *pose,
+            limit_px: usual_px(misfit_px),
+        });
     }
 
     /// Does a slice; [`Poll::Ready`] is the last, and the one after it begins anew. What is wanted, and the memory with all that is
@@ -208,13 +237,22 @@ impl FrameSearch {
         memory: &mut FinderMemory<'_>,
         found: &mut Found,
     ) -> Poll<Result<(), FindError>> {
-        let (candidates, component) = (&mut found.candidates, wanted.component);
+        let component = wanted.component;
         if self.at == At::Start {
             if component.library.info().model != component.model.digest() {
                 return Poll::Ready(Err(FindError::OtherModel));
             }
-            self.at = At::First;
+            self.begin(wanted, found);
         }
+        if self.at == At::Near {
+            let refined = ready!(self.go_on_refining(wanted, memory, &mut found.candidates));
+            if refined.is_ok() && self.is_usual(found.candidates.first()) {
+                return Poll::Ready(wanted.brought_to_goal(memory, &mut found.candidates));
+            }
+            self.at = At::First;
+            return Poll::Pending;
+        }
+        let candidates = &mut found.candidates;
         if self.at == At::First {
             let (camera, silhouette) = (wanted.camera, wanted.silhouette);
             ready!(self.first.go_on(component, camera, silhouette, memory))?;
@@ -240,17 +278,37 @@ impl FrameSearch {
             }
         }
         // A second opinion that leads nowhere is none.
-        Poll::Ready(match wanted.goal {
-            Goal::Image(image) => on_image(wanted, image, memory, candidates),
-            _ => Ok(()),
+        Poll::Ready(wanted.brought_to_goal(memory, candidates))
+    }
+
+    /// Begins near a known pose, where there is one that may lead to all that is wanted.
+    fn begin(&mut self, wanted: &Wanted<'_>, found: &mut Found) {
+        self.at = At::First;
+        let is_outline = !matches!(wanted.goal, Goal::Library);
+        let near = self.near.filter(|_| is_outline);
+        if let Some(near) = near.filter(|_| !known_fraction(wanted.silhouette).is_partial()) {
+            found.candidates.clear();
+            (found.clipped, found.partial) = (false, false);
+            (self.at, self.assessed) = (At::Near, 0);
+            let view = [wanted.view()];
+            self.rivals.begin(once(near.pose), &wanted.subject(&view));
+        }
+    }
+
+    /// Whether the best pose near the one that was given is as good as that one was.
+    fn is_usual(&self, best: Option<&Candidate>) -> bool {
+        let limit_px = self.near.map_or(0.0, |near| near.limit_px);
+        best.is_some_and(|best| {
+            let alone = judge_fit(&best.fit, best.covariance.is_some(), &Limits::USUAL);
+            alone == Verdict::Good && best.misfit() <= limit_px
         })
     }
 
     /// Refines what is worth it of the first poses.
     fn refine(&mut self, at: At, wanted: &Wanted<'_>) {
-        (self.at, self.assessed) = (at, 0);
         let worth = worth_refining(&self.first.first.poses);
         let starts = worth.iter().map(|rival| rival.located.pose);
+        (self.at, self.assessed) = (at, 0);
         let view = [wanted.view()];
         self.rivals.begin(starts, &wanted.subject(&view));
     }
@@ -278,6 +336,18 @@ impl FrameSearch {
 }
 
 impl<'w> Wanted<'w> {
+    /// Brings poses of the outline onto the frame, where that is wanted.
+    fn brought_to_goal(
+        &self,
+        memory: &mut FinderMemory<'_>,
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        match self.goal {
+            Goal::Image(image) => on_image(self, image, memory, candidates),
+            _ => Ok(()),
+        }
+    }
+
     fn view(&self) -> CameraView<'w> {
         CameraView::only(self.camera, *self.silhouette)
     }

@@ -24,6 +24,9 @@ const OF_OTHERS: f64 = 3.0;
 /// Where nothing tells what is usual, a pose that leaves this part of another's misfit is the right one of both.
 const ENOUGH: f64 = 0.5;
 
+/// What rounding to pixels leaves of an exact outline at the right pose: nothing on one frame, so much on the next.
+const ROUNDED_PX: f64 = 0.1;
+
 impl FilmMisfits<'_> {
     /// The largest usual misfit, pixels; `None` where nothing tells.
     #[must_use]
@@ -48,6 +51,11 @@ impl FilmMisfits<'_> {
         let limit_px = self.limit_px()?;
         (px > limit_px).then_some(Doubt::Unusual { px, limit_px })
     }
+}
+
+/// The largest misfit that is usual of a component which left so much on the frame before, pixels.
+pub(super) fn usual_px(before_px: f64) -> f64 {
+    OF_OWN * before_px.max(ROUNDED_PX)
 }
 
 /// The misfit at which the search for other poses around one with misfit `px` may end, `limit_px` being the largest usual one;

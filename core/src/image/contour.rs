@@ -51,8 +51,8 @@ pub enum OutlineError {
     ZeroArea,
 }
 
-/// A polygon that is known to be closed, simple and inside its frame. The last vertex is joined
-/// to the first.
+/// A polygon that is known to be closed, simple and inside its frame. The last vertex is joined to the first; it may be written once more
+/// at the end, as files of polygons have it.
 #[derive(Clone, Copy, Debug)]
 pub struct Outline<'a> {
     points: &'a [Point],
@@ -64,6 +64,7 @@ impl<'a> Outline<'a> {
     /// # Errors
     /// An [`OutlineError`] that names the first offending point or pair of sides.
     pub fn new(points: &'a [Point], width: usize, height: usize) -> Result<Self, OutlineError> {
+        let points = once_each(points);
         if points.len() < 3 {
             return Err(OutlineError::TooFewPoints(points.len()));
         }
@@ -106,6 +107,14 @@ impl<'a> Outline<'a> {
     #[must_use]
     pub fn area(&self) -> f64 {
         libm::fabs(signed_area(self.points))
+    }
+}
+
+/// Vertices without the first one's second mention at the end.
+fn once_each(points: &[Point]) -> &[Point] {
+    match points {
+        [before @ .., last] if before.len() >= 3 && before.first() == Some(last) => before,
+        _ => points,
     }
 }
 
@@ -159,6 +168,19 @@ mod tests {
             Outline::new(&reversed, 8, 8).map(|o| o.area()).ok(),
             Some(16.0)
         );
+    }
+
+    #[test]
+    fn the_first_vertex_may_be_written_once_more_at_the_end() {
+        let closed = points([(1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 1.0)]);
+        let outline = Outline::new(&closed, 8, 8).expect("valid");
+        assert_eq!((outline.points().len(), outline.area()), (3, 8.0));
+        // Twice more is a side without a length, as anywhere else.
+        let twice = points([(1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 1.0), (1.0, 1.0)]);
+        assert!(matches!(
+            Outline::new(&twice, 8, 8),
+            Err(OutlineError::SelfCrossing { .. })
+        ));
     }
 
     #[test]

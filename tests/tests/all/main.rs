@@ -16,6 +16,7 @@ mod library;
 mod made_implant;
 mod mirrored;
 mod mirrored_film;
+mod near;
 mod nearby;
 mod offset;
 mod options;

@@ -42,7 +42,7 @@ fn the_headers_functions_are_the_librarys() {
         .filter_map(|(name, count)| Some((name.strip_prefix("fluoropose_")?, count)))
         .collect();
     assert_eq!(declared, exported);
-    assert_eq!(declared.len(), 14);
+    assert_eq!(declared.len(), 15);
     for (name, status) in [
         ("OK", Status::Ok),
         ("POINTER", Status::Pointer),
@@ -55,6 +55,7 @@ fn the_headers_functions_are_the_librarys() {
         ("NO_POSE", Status::NoPose),
         ("ORDER", Status::Order),
         ("MORE", Status::More),
+        ("NEAR", Status::Near),
     ] {
         let line = format!("#define FLUOROPOSE_{name} {}", status as i32);
         let mut lines = code.lines().map(str::trim_end);
