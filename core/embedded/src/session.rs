@@ -202,7 +202,7 @@ impl<'m> Session<'m> {
         if let Seen::Nothing = self.seen {
             return Err(Failure::Order);
         }
-        if !pose.is_rigid(RIGID) || !(misfit_px >= 0.0) {
+        if !pose.is_rigid(RIGID) || misfit_px.is_nan() || misfit_px < 0.0 {
             return Err(Failure::Near);
         }
         self.search.restart_near(pose, misfit_px);

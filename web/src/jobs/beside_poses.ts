@@ -1,5 +1,5 @@
 import { filmNumbers, squareOf } from '../document/film';
-import type { Doc } from '../document/types';
+import type { FrameEntry } from '../document/types';
 import { cameraOf } from '../results/keys';
 import type { Given } from '../results/spans';
 import type { ComponentName } from '../terms/component';
@@ -16,6 +16,8 @@ import { asJob, type Services } from './services';
 /** A component whose film is to be read, and its worker. */
 interface Subject {
   readonly component: ComponentName;
+  /** Of the film that its numbers of frames count in. */
+  readonly frames: readonly FrameEntry[];
   readonly worker: Pick<Bridge<FollowProtocol>, 'call'>;
   readonly span: { readonly given: readonly Given[] };
 }
@@ -27,9 +29,9 @@ const BESIDE = 6;
 /** Reads the film around the first poses of each component, in all workers at once; gives nothing where it was called off. */
 export async function readBeside(services: Services, subjects: readonly Subject[], side: number, abort: AbortController): Promise<ReadonlyMap<ComponentName, Beside>> {
   const { store } = services;
-  const last = store.doc.frames.length - 1;
-  const around = ({ frame }: Given) => Math.min(frame + BESIDE, last) - Math.max(frame - BESIDE, 0) + 1;
-  const total = subjects.flatMap(({ span }) => span.given.slice(0, POSES)).reduce((sum, given) => sum + around(given), 0);
+  const around = ({ frame }: Given, last: number) => Math.min(frame + BESIDE, last) - Math.max(frame - BESIDE, 0) + 1;
+  const all = subjects.flatMap(({ span, frames }) => span.given.slice(0, POSES).map((given) => around(given, frames.length - 1)));
+  const total = all.reduce((sum, each) => sum + each, 0);
   const job = { title: texts.follow.reading, unit: texts.follow.unit, total, cancel: () => abort.abort() };
   const read = await asJob(store, job, (report) => {
     const looked = counting(report, total);
@@ -39,22 +41,20 @@ export async function readBeside(services: Services, subjects: readonly Subject[
 }
 
 async function besideOf(services: Services, subject: Subject, side: number, signal: AbortSignal, looked: () => void): Promise<Beside> {
-  const { component, worker, span } = subject;
-  const { doc } = services.store;
+  const { component, worker, span, frames } = subject;
   const { model, ...input } = subjectOf(services, component);
   const given = span.given.slice(0, POSES);
-  const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, side, given, justThere: false });
-  return { model, anchors: anchorsOf(doc, given), read: await profilesFrom(services, subject, first, signal, looked) };
+  const first = await worker.call('readFilm', { ...input, component, frames: frames.length, side, given, justThere: false });
+  return { model, anchors: anchorsOf(frames, given), read: await profilesFrom(services, subject, first, signal, looked) };
 }
 
 /** Reads the film at the first poses of each component, in squares with sides of so many pixels. */
 export async function readFirst(services: Services, subjects: readonly Subject[], side: number, signal: AbortSignal): Promise<readonly ReadProfiles[]> {
-  const { doc } = services.store;
   const each = subjects.map(async (subject) => {
-    const { component, worker, span } = subject;
+    const { component, worker, span, frames } = subject;
     const { model: _, ...input } = subjectOf(services, component);
     const given = span.given.slice(0, POSES);
-    const first = await worker.call('readFilm', { ...input, component, frames: doc.frames.length, side, given, justThere: true });
+    const first = await worker.call('readFilm', { ...input, component, frames: frames.length, side, given, justThere: true });
     return profilesFrom(services, subject, first, signal, () => undefined);
   });
   return (await Promise.all(each)).flat();
@@ -62,25 +62,25 @@ export async function readFirst(services: Services, subjects: readonly Subject[]
 
 /** Reads the film in frames in which a followed component is good, as its worker chooses them; null where these are too few. */
 export async function readAsked(services: Services, subject: Subject, otherMiddles: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<Beside | null> {
-  const { component, worker, span } = subject;
-  const { doc } = services.store;
+  const { component, worker, span, frames } = subject;
   const { model, ...input } = subjectOf(services, component);
-  const first = await worker.call('askFilm', { ...input, component, frames: doc.frames.length, side: squareOf(filmNumbers(doc, component)), otherMiddles });
+  const side = squareOf(filmNumbers(services.store.doc, component));
+  const first = await worker.call('askFilm', { ...input, component, frames: frames.length, side, otherMiddles });
   if (first === null) return null;
   const read = await profilesFrom(services, subject, first, signal, () => undefined);
-  return { model, anchors: anchorsOf(doc, span.given.slice(0, POSES)), read };
+  return { model, anchors: anchorsOf(frames, span.given.slice(0, POSES)), read };
 }
 
-function anchorsOf(doc: Doc, given: readonly Given[]): Beside['anchors'] {
-  return given.map(({ frame, pose }) => ({ frameId: doc.frames[frame]!.id, pose }));
+function anchorsOf(frames: readonly FrameEntry[], given: readonly Given[]): Beside['anchors'] {
+  return given.map(({ frame, pose }) => ({ frameId: frames[frame]!.id, pose }));
 }
 
 /** Profiles in all frames that the worker asks for. */
-async function profilesFrom(services: Services, { component, worker }: Subject, first: number | null, signal: AbortSignal, looked: () => void): Promise<readonly ReadProfiles[]> {
+async function profilesFrom(services: Services, { component, worker, frames }: Subject, first: number | null, signal: AbortSignal, looked: () => void): Promise<readonly ReadProfiles[]> {
   const read: ReadProfiles[] = [];
   for (let next = first; next !== null && !signal.aborted; ) {
     const frame = next;
-    const { frameId: _, ...input } = await frameAt(services, frame);
+    const { frameId: _, ...input } = await frameAt(services, frames, frame);
     const seen = await worker.call('lookFilm', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
     if (!seen) break;
     if (seen.profiles.length > 0) read.push({ component, frame, profiles: seen.profiles });
@@ -100,8 +100,9 @@ export function subjectOf({ store, studio }: Services, component: ComponentName)
   return { model, mesh, camera };
 }
 
-export async function frameAt({ store, studio }: Services, at: number): Promise<FramePixels & { readonly frameId: string }> {
-  const frame = store.doc.frames[at];
+/** A frame by its number among those that the work was begun with: others may have come between them since. */
+export async function frameAt({ studio }: Pick<Services, 'studio'>, frames: readonly FrameEntry[], at: number): Promise<FramePixels & { readonly frameId: string }> {
+  const frame = frames[at];
   const pixels = frame && (await studio.framePixels(frame.id));
   if (!frame || !pixels) throw new Error(texts.follow.gone(at + 1));
   return { frameId: frame.id, ...pixels };

@@ -1,7 +1,7 @@
 import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
 import { type Followed, withSoFar } from '../document/followed';
-import { type Cell, cellOf, chosenCandidate, type Result, verdictOf } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, type FrameEntry, type Result, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Span } from '../results/spans';
 import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
@@ -21,6 +21,8 @@ export interface Part {
   readonly component: ComponentName;
   readonly worker: Pick<Bridge<FollowProtocol>, 'call'>;
   readonly span: Span;
+  /** The film as it was when the span was told: its numbers of frames count in it. */
+  readonly frames: readonly FrameEntry[];
 }
 
 /** How the work came to its end: what was not reached is as it was, and what another pass was to take the place of is to be followed again. */
@@ -126,12 +128,12 @@ export class FilmPass {
 
   /** From the frames that are set over all others. */
   async #through(part: Part): Promise<void> {
-    const { component, worker, span } = part;
+    const { component, worker, span, frames } = part;
     const { doc } = this.#services.store;
     const { mesh, camera } = subjectOf(this.#services, component);
     const { first, last, given } = span;
     const searches = (await this.#first.open(component, worker, given[0]?.pose ?? null, this.#calledOff).catch(unlessAborted)) ?? false;
-    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
+    const begin = { mesh, camera, frames: frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), this.#progress.followed);
     // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.
     if (!this.#signal.aborted) await this.#look(part, await worker.call('seeSides', null), this.#progress.another);
@@ -146,9 +148,10 @@ export class FilmPass {
     const signal = this.#signal;
     for (let next = first; next !== null && !signal.aborted; ) {
       const at = next;
-      const { frameId, ...input } = await frameAt(this.#services, at);
+      const { frameId, ...input } = await frameAt(this.#services, part.frames, at);
       const seen = await part.worker.call('look', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
-      if (!seen) return;
+      // What was called off for another work is not written into it.
+      if (!seen || signal.aborted) return;
       next = seen.next;
       if (seen.pose) this.#fill(part, at, frameId, seen.pose);
       if (seen.isBeside) this.#progress.beside(part.component, at);
@@ -181,7 +184,8 @@ export class FilmPass {
 
   #shown(component: ComponentName, counts: (result: Result | null) => boolean): readonly (PoseNumbers | null)[] {
     const { doc } = this.#services.store;
-    return doc.frames.map(({ id }) => {
+    const frames = this.#parts[0]?.frames ?? doc.frames;
+    return frames.map(({ id }) => {
       const cell = cellOf(doc, id, component);
       return (counts(cell.result) && chosenCandidate(cell)?.pose) || null;
     });
@@ -195,8 +199,7 @@ export class FilmPass {
     return { poses, axes: femur.axes.directions, own: tibia.axes.directions };
   }
 
-  #answersOf({ component, span }: Part, film: readonly FollowedFrame[], ending: Ending): readonly Followed[] {
-    const { doc } = this.#services.store;
+  #answersOf({ component, span, frames }: Part, film: readonly FollowedFrame[], ending: Ending): readonly Followed[] {
     // The film has not told of what leads before it is followed to its end.
     const isDone = ending === 'done';
     const isLeader = (frame: number) => isDone && span.given.some((one) => one.frame === frame && !one.isSet);
@@ -204,7 +207,7 @@ export class FilmPass {
     const led = span.isDoubtful || (!isDone && span.given.every(({ isDoubtful }) => isDoubtful));
     const isGiven = (frame: number) => span.given.some((one) => one.frame === frame);
     return film.flatMap((one, index) => {
-      const frame = doc.frames[index];
+      const frame = frames[index];
       const isInside = index >= span.first && index <= span.last && (!isGiven(index) || isLeader(index));
       // What was not reached before somebody stopped it is as it was.
       if (!frame || !isInside || (!isDone && one.state === 'unsolved')) return [];

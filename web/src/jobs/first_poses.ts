@@ -1,6 +1,6 @@
 import type { Place } from '../document/command';
 import { setOutline } from '../document/outlines';
-import { cellOf, chosenCandidate } from '../document/types';
+import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
 import { middleOf } from '../geometry/mesh_middle';
 import { type FramePoint, framePoint } from '../geometry/points';
 import { inCamera } from '../geometry/pose_motion';
@@ -36,6 +36,8 @@ interface Taken {
 
 /** What a search goes by. */
 interface Search extends CalledOff {
+  /** The film as it was at the beginning: others may come between its frames. */
+  readonly frames: readonly FrameEntry[];
   readonly parts: readonly Member[];
   readonly workers: Workers;
   readonly bright: boolean | null;
@@ -85,7 +87,8 @@ export class FirstPoses {
   /** Looks for components; gives those that were found nowhere. */
   async find(wanted: readonly ComponentName[], workers: Workers, calledOff: CalledOff): Promise<readonly ComponentName[]> {
     const parts = COMPONENT_NAMES.flatMap((name) => this.#member(name) ?? []);
-    const search = { ...calledOff, parts, workers, places: new Map(), taken: new Map(), opened: new Map<ComponentName, Distance[]>() };
+    const { frames } = this.#services.store.doc;
+    const search = { ...calledOff, frames, parts, workers, places: new Map(), taken: new Map(), opened: new Map<ComponentName, Distance[]>() };
     const known = new Map(parts.map(({ component }) => [component, wanted.includes(component) ? [] : this.#known(component)]));
     const bright = this.#services.store.ui.tracing.bright ?? (await this.#told({ ...search, bright: null }, known));
     await this.#run({ ...search, bright }, known);
@@ -98,7 +101,7 @@ export class FirstPoses {
     // Any worker has the order of all.
     const planner = search.workers.femur;
     const parts = search.parts.map((part) => ({ ...part, known: known.get(part.component) ?? [] }));
-    let state = await planner.call('plan', { frames: store.doc.frames.length, told: search.bright !== null, parts });
+    let state = await planner.call('plan', { frames: search.frames.length, told: search.bright !== null, parts });
     for (let { step } = state; step !== null; { step } = state) {
       const answer = step.search === 'follow' ? { ends: await this.#walk(step, search) } : { found: await this.#look(step, search) };
       state = await planner.call('planned', answer);
@@ -117,11 +120,10 @@ export class FirstPoses {
 
   /** Sets what was found by now, as a click would. */
   #take(way: number, { known }: PlanState, search: Search): void {
-    const { doc } = this.#services.store;
     search.parts.forEach(({ component }, part) => {
       const one = known[way]?.[part];
       const at = one && search.places.get(`${way} ${part} ${one.frame}`);
-      const frame = one && doc.frames[one.frame];
+      const frame = one && search.frames[one.frame];
       if (!at || !frame || search.taken.has(component)) return;
       const place = { frameId: frame.id, component };
       const done = this.#clicks.ask([framePoint(...at)], place, isBright(way, search), one.pose);
@@ -148,7 +150,7 @@ export class FirstPoses {
     const own = search.parts[part]!;
     const { component } = own;
     const worker = search.workers[component];
-    const { frameId, ...pixels } = await frameAt(this.#services, frame);
+    const { frameId, ...pixels } = await frameAt(this.#services, search.frames, frame);
     const beside: FindInput['beside'] = known && { pose: known, inJoint: how === 'joint' };
     const other = known && texts.component[otherThan(component)];
     const title = texts.follow.looking(texts.component[component], frame + 1, other);
@@ -173,9 +175,9 @@ export class FirstPoses {
     const { store } = this.#services;
     const title = texts.follow.looking(texts.component[component], frame + 1, null);
     await asJob(store, { title, unit: '', total: 0, cancel: search.cancel }, async () => {
-      const begun = { frame, pose: known, frames: store.doc.frames.length, bright: isBright(way, search) };
+      const begun = { frame, pose: known, frames: search.frames.length, bright: isBright(way, search) };
       for (let next = await worker.call('beginWalk', begun); next !== null; ) {
-        const { frameId: _, ...pixels } = await frameAt(this.#services, next);
+        const { frameId: _, ...pixels } = await frameAt(this.#services, search.frames, next);
         const seen = await worker.call('walk', pixels, { signal: search.signal, transfer: [pixels.pixels.buffer] });
         ({ next, ends } = seen);
       }
@@ -209,7 +211,7 @@ export class FirstPoses {
   async #told(search: Search, known: ReadonlyMap<ComponentName, readonly Known[]>): Promise<boolean | null> {
     for (const [component, [first]] of known) {
       if (!first || !(await this.#isOpen(component, search))) continue;
-      const { frameId: _, ...pixels } = await frameAt(this.#services, first.frame);
+      const { frameId: _, ...pixels } = await frameAt(this.#services, search.frames, first.frame);
       return search.workers[component].call('isBright', { ...pixels, pose: first.pose }, { transfer: [pixels.pixels.buffer] });
     }
     return null;

@@ -2,8 +2,9 @@ import { filmNumbers } from '../document/film';
 import { type Followed, takeFollowed, withoutSoFar } from '../document/followed';
 import { anew, foundWith } from '../document/found_anew';
 import { currentFrame } from '../document/store';
+import { indexOfFrame } from '../document/frame_index';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
-import { spanToFollow } from '../results/spans';
+import { isLed, spanToFollow } from '../results/spans';
 import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
@@ -48,8 +49,8 @@ export class Follower {
     const refusal = this.#refusal();
     if (refusal !== null) return store.say('info', refusal);
     const abort = (this.#abort = new AbortController());
-    const inputs = foundWith(store.doc);
-    const unsubscribe = store.subscribe(() => foundWith(store.doc) !== inputs && abort.abort());
+    const begun = store.doc;
+    const unsubscribe = store.subscribe(() => !isOfTheSame(store.doc, begun) && abort.abort());
     store.show({ following: true });
     try {
       const missing = await this.#begin(abort);
@@ -112,18 +113,26 @@ export class Follower {
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
     const before: Before = new Map();
-    const inputs = foundWith(store.doc);
+    const begun = store.doc;
     const cancel = () => abort.abort();
     const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel };
     const found = await asJob(store, job, (report) => this.#all(parts, before, report, { signal: abort.signal, cancel }));
-    const isAsBefore = foundWith(store.doc) === inputs;
+    const isAsBefore = isOfTheSame(store.doc, begun);
     const left = [...before.values()].map(([place, cell]) => [place, isAsBefore ? cell : anew(cell)] as const);
     store.amend((doc) => withoutSoFar(doc, left));
-    // Found with a model or a calibration that is another by now.
+    // Found with a model or a calibration that is another by now, or in another film.
     if (!isAsBefore) return;
+    this.#take(parts, found, notFound, abort.signal.aborted);
+  }
+
+  /** Takes what was found from leads that are still there: who took one back found it wrong. */
+  #take(parts: readonly Part[], all: readonly Followed[], notFound: readonly string[], isStopped: boolean): void {
+    const { store } = this.#services;
+    const found = all.filter(({ place }) => isLed(store.doc, place.component));
+    if (found.length === 0 && all.length > 0) return store.say('info', this.#nothingToDo());
     if (found.length > 0) store.perform(takeFollowed(found));
     const lacking = found.filter(({ pose }) => !pose).length;
-    const done = texts.follow.done(posesOf(store.doc, parts), howManyDoubtful(found), lacking, abort.signal.aborted);
+    const done = texts.follow.done(posesOf(store.doc, parts), howManyDoubtful(found), lacking, isStopped);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
   }
 
@@ -165,7 +174,7 @@ export class Follower {
   #parts(doc: Doc): readonly Part[] {
     return this.#present(doc).flatMap((component) => {
       const span = spanToFollow(doc, component);
-      return span ? [{ component, span, worker: this.#workers[component] }] : [];
+      return span ? [{ component, span, frames: doc.frames, worker: this.#workers[component] }] : [];
     });
   }
 
@@ -203,7 +212,7 @@ export class Follower {
   /** Are all components followed over the whole film? A correction of some frames does not change how others are seen. */
   #isWhole(parts: readonly Part[]): boolean {
     const { doc } = this.#services.store;
-    const isWhole = ({ span }: Part) => span.first === 0 && span.last === doc.frames.length - 1;
+    const isWhole = ({ span, frames }: Part) => span.first === 0 && span.last === frames.length - 1;
     return !doc.film.stated.constants && parts.length === this.#present(doc).length && parts.every(isWhole);
   }
 
@@ -216,6 +225,12 @@ export class Follower {
     for (const [component, read] of await Promise.all(each)) if (read) asked.set(component, read);
     return asked.size === parts.length && !signal.aborted ? asked : null;
   }
+}
+
+/** Is all as it was that poses are found with, and the film's frames still among those of the document? */
+function isOfTheSame(doc: Doc, begun: Doc): boolean {
+  const isThere = doc.frames === begun.frames || begun.frames.every(({ id }) => indexOfFrame(doc, id) >= 0);
+  return isThere && foundWith(doc) === foundWith(begun);
 }
 
 function framesOf(parts: readonly Part[]): number {

@@ -102,7 +102,7 @@ export class JointWatch {
       const { frame, component } = look;
       const camera = cameraOf(doc, doc.frames[frame] ?? null);
       if (!camera) return;
-      const { frameId: _, ...pixels } = await frameAt(this.#services, frame);
+      const { frameId: _, ...pixels } = await frameAt(this.#services, doc.frames, frame);
       looked.set(frame, pairs[frame]!);
       look = await this.#worker.call('lookFlipped', { ...pixels, camera, film: filmNumbers(doc, component) }, { lane: 'idle', transfer: [pixels.pixels.buffer] });
     }

@@ -70,6 +70,11 @@ export function isLeadDoubtful(doc: Doc, component: ComponentName): (frame: numb
   return (frame, origin) => (given.length > 0 && isFromThese(origin, given, frame) ? isDoubtful : null);
 }
 
+/** Is there a pose that others are followed from? */
+export function isLed(doc: Doc, component: ComponentName): boolean {
+  return givenPoses(doc, component).length > 0;
+}
+
 /**
  * Poses that lead: those that a person set, traced, opened or checked, and what the program found where nobody set any. Doubtful ones lead
  * only where there is nothing better.
