@@ -40,7 +40,7 @@ export class HandActions {
         this.setGrain(action.name);
         return true;
       case 'refine-from-here':
-        this.refine();
+        if (!repeated) this.refine();
         return true;
     }
   }

@@ -1,3 +1,5 @@
+import { useLayoutEffect, useRef } from 'preact/hooks';
+
 interface NumberFieldProps {
   readonly label: string;
   readonly unit: string;
@@ -9,16 +11,21 @@ interface NumberFieldProps {
 
 /** A number with its unit. An empty field is NaN: whoever uses the number says what is wrong with it. */
 export function NumberField({ label, unit, value, placeholder, onChange }: NumberFieldProps) {
+  const input = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => {
+    // What is being typed, as "0.", is a number already: written back it would lose its end.
+    if (input.current && !Object.is(input.current.valueAsNumber, value)) input.current.value = Number.isNaN(value) ? '' : String(value);
+  }, [value]);
   return (
     <label class="field">
       <span class="field-label">{label}</span>
       <input
+        ref={input}
         type="number"
         step="any"
         inputMode="decimal"
         aria-label={`${label} (${unit})`}
         placeholder={placeholder ?? ''}
-        value={Number.isNaN(value) ? '' : value}
         onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
       />
       <span class="unit">{unit}</span>

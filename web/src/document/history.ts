@@ -36,11 +36,14 @@ export function startHistory(doc: Doc): History {
   return { past: [], present: doc, future: [], gestureStart: null, saved: doc, amended: new Amended() };
 }
 
+/** A gesture under way goes on from it: what comes while a hand drags, as the answer to a click, is done to the document before the gesture. */
 export function perform(history: History, command: Command): History {
-  const before = history.gestureStart ?? history.present;
-  const after = command.apply(history.present);
-  if (after === before) return { ...history, present: before, gestureStart: null };
-  return { ...history, past: pushed(history.past, command, before), present: after, future: [], gestureStart: null };
+  const { gestureStart, present } = history;
+  const before = gestureStart ?? present;
+  const after = command.apply(before);
+  if (after === before) return history;
+  const shown = gestureStart === null ? { present: after } : { gestureStart: after, present: command.apply(present) };
+  return { ...history, ...shown, past: pushed(history.past, command, before), future: [] };
 }
 
 /** Shows a gesture's effect without making it an undo unit; always applied to the document before the gesture. */

@@ -1,3 +1,4 @@
+import type { Place } from '../document/command';
 import { adjust } from './adjust';
 import { brush } from './brush';
 import { edit } from './edit';
@@ -17,6 +18,8 @@ import { wire, wireBusy } from './wire';
  * and nothing else.
  */
 export class Controller {
+  /** Of the gesture under way: where the film goes on under the hand, or another component is chosen, it is given up. */
+  #place: Place | null = null;
   #navigation: { kind: 'panning' | 'windowing'; state: DragState } | null = null;
   readonly #tools: Readonly<Record<ToolName | 'ruler', Running>> = {
     edit: new Held(edit),
@@ -36,7 +39,10 @@ export class Controller {
   handle(tool: ToolName | 'ruler', input: Input, situation: Situation, spaceHeld: boolean): readonly Effect[] {
     const navigation = this.#navigation ?? this.#beginNavigation(input, spaceHeld);
     if (navigation) return this.#navigate(navigation, input, situation);
-    return this.#tools[tool].handle(input, situation);
+    const isOfAnother = this.busy && !isSame(this.#place, situation.place);
+    const effects = this.#tools[tool].handle(isOfAnother ? { ...input, type: 'cancel' } : input, situation);
+    this.#place = situation.place;
+    return effects;
   }
 
   /** Is a gesture under way? Then keys do not change tools under it. */
@@ -58,6 +64,10 @@ export class Controller {
     this.#navigation = state.name === 'idle' ? null : { kind: navigation.kind, state };
     return effects;
   }
+}
+
+function isSame(one: Place | null, other: Place): boolean {
+  return one?.frameId === other.frameId && one.component === other.component;
 }
 
 interface Running {

@@ -14,6 +14,11 @@ import { texts } from '../texts/texts';
 
 /** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
 export function CalibrationSheet({ state }: { state: State }) {
+  // What another file says takes the place of what stands in the fields.
+  return <Typed key={state.history.present.calibration?.text} state={state} />;
+}
+
+function Typed({ state }: { state: State }) {
   const { actions, services } = useApp();
   const { store, studio } = services;
   const frame = currentFrame(state);

@@ -7,6 +7,8 @@ interface Focus {
   readonly typing: boolean;
   /** A button or the like has it. */
   readonly onControl: boolean;
+  /** A sheet that is not about the cell on view has it. */
+  readonly inSheet: boolean;
 }
 
 /** Keys of a model in hand, and of how things are shown. False where the key means neither. */
@@ -14,7 +16,7 @@ export function runHandOrSeeingKey({ hand, seeing, services, actions }: App, eve
   if (focus.typing) return false;
   const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt } = event;
   const input = { key, ctrl: ctrlKey || metaKey, shift, alt };
-  const adjusting = services.store.ui.tool === 'pose' ? handActionFor(input) : null;
+  const adjusting = services.store.ui.tool === 'pose' && !focus.inSheet ? handActionFor(input) : null;
   // Enter and arrows belong to the control that has the focus.
   if (adjusting && !(focus.onControl && (key === 'Enter' || ownsArrows(event.target, key)))) {
     if (actions.stage?.busy()) return true;

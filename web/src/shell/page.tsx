@@ -78,14 +78,16 @@ function useKeys(): void {
     };
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
-      const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
-      if (!typing(target) && !inSheet(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
-      if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
+      const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target, repeat } = event;
+      if (!typing(target) && !inSheet(target) && !repeat && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
+      if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target), inSheet: inSheet(target) })) return true;
       const action = meant({ key, ctrl: ctrlKey || metaKey, shift, alt });
       if (!action) return false;
+      // Who holds a key down too long would say yes to cells that nobody saw.
+      if (repeat && !isRepeated(action)) return !typing(target);
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
-      if (inSheet(target) && isVerdict(action)) return false;
+      if (inSheet(target) && isOfCell(action, key)) return false;
       // Enter belongs to the control that has the focus.
       if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
@@ -121,10 +123,17 @@ function inSheet(target: EventTarget | null): boolean {
   return target instanceof HTMLElement && target.closest('.sheet:not(.work-sheet)') !== null;
 }
 
-/** What a person says of the cell, or takes from it: nobody means it who looks at something else. */
-function isVerdict(action: Action): boolean {
+/** What a person says of the cell, or does to it: nobody means it who looks at something else, where arrows scroll. */
+function isOfCell(action: Action, key: string): boolean {
   if (action.name === 'work') return ['toggle-checked', 'toggle-flagged', 'start-anew'].includes(action.command);
-  return ['delete-point', 'delete-outline', 'other-candidate'].includes(action.name);
+  if (action.name === 'tracing' || /^(Arrow|Page)/.test(key)) return true;
+  return ['delete-point', 'delete-outline', 'other-candidate', 'close-outline', 'toggle-unknown'].includes(action.name);
+}
+
+/** What goes on while its key is held. */
+function isRepeated(action: Action): boolean {
+  if (action.name === 'tracing') return ['move', 'turn', 'scale', 'point', 'size', 'take-back'].includes(action.command.what);
+  return /^(undo|redo|zoom-in|zoom-out|(previous|next)-(frame|point))$/.test(action.name);
 }
 
 function onControl(target: EventTarget | null): boolean {
