@@ -8,6 +8,7 @@ import { writeOutlines } from '../exchange/outline_file';
 import { publishedFilm } from '../exchange/publish';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { sentenceOf } from '../jobs/services';
+import { asWritten } from '../results/outdated';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { Exporting, ExportKind } from '../terms/exporting';
 import { PROGRAM } from '../terms/program';
@@ -55,7 +56,8 @@ export function fileName({ name, frames }: Doc, { kind, forms, component, column
 /** The text that a file will hold, for those that are one; null for the others. */
 export async function textOf(app: App, { kind, forms, component, column }: Exporting): Promise<string | null> {
   const { store, studio } = app.services;
-  const { doc, ui } = store;
+  const { ui } = store;
+  const doc = asWritten(store.doc);
   const publish = async (what: JointText) => app.joint.publish(await publishedFilm(doc, app.joint.numbers), what);
   switch (kind) {
     case 'session':
@@ -105,7 +107,7 @@ export async function write(app: App, exporting: Exporting, film: FilmType | nul
 async function makeFile(app: App, exporting: Exporting, film: FilmType | null): Promise<Made | null> {
   const { kind, forms } = exporting;
   const { services } = app;
-  const { doc } = services.store;
+  const doc = asWritten(services.store.doc);
   if (kind === 'film') return makeFilm(app, forms.film === 'pictures' ? 'pictures' : film);
   if (kind === 'outlines' && forms.outlines === 'masks') {
     const zip = await exportMasks(services);

@@ -5,7 +5,9 @@ import { asJob, type Services } from '../jobs/services';
 import type { JointNumbers } from '../results/joint_curves';
 import { cameraOf } from '../results/keys';
 import { doubtOf } from '../results/motion';
+import { asWritten } from '../results/outdated';
 import { COMPONENT_NAMES, titleOf } from '../terms/component';
+import type { Preprocessing } from '../terms/seeing';
 import { formatNumber } from '../texts/numbers';
 import { later } from '../texts/later';
 import { overlayWorker } from '../workers/start';
@@ -41,6 +43,12 @@ function curvesOf({ frames }: Doc, { of, impossible, columns, hasPlate }: JointN
   ];
 }
 
+/** What a film of overlays is made of. */
+interface Shown {
+  readonly doc: Doc;
+  readonly preprocessing: Preprocessing;
+}
+
 /** Pictures of the film with the outlines of the models at their poses. A worker paints and writes them; here they are only named. */
 export class OverlayPictures {
   readonly #services: Services;
@@ -60,19 +68,21 @@ export class OverlayPictures {
   /** One frame, as PNG. */
   async still(look: OverlayLook, index: number): Promise<Blob> {
     await this.#bringModels();
-    const frame = await this.#frame(index, new AbortController().signal);
+    const frame = await this.#frame(this.#shown(), index, new AbortController().signal);
     return await this.#worker.call('still', { look, frame }, { transfer: [frame.frame.pixels.buffer] });
   }
 
   /** All of them. */
   async write(look: OverlayLook, form: FilmType | 'pictures', signal: AbortSignal, report: (done: number, total: number) => void): Promise<Blob> {
+    const shown = this.#shown();
     await this.#bringModels();
     await this.#worker.call('begin', { look, form }, { signal });
-    let coming = this.#coming(0, look, signal);
+    // What is done to the poses while it is written is of another film.
+    let coming = this.#coming(shown, 0, signal);
     for (let index = 0; index < look.frames; index++) {
       const frame = await coming;
       // The next one is read while this one is drawn.
-      coming = this.#coming(index + 1, look, signal);
+      coming = this.#coming(shown, index + 1, signal);
       await this.#worker.call('add', frame!, { signal, transfer: [frame!.frame.pixels.buffer] });
       report(index + 1, look.frames);
     }
@@ -96,16 +106,20 @@ export class OverlayPictures {
     this.#models = key;
   }
 
-  #coming(index: number, { frames }: OverlayLook, signal: AbortSignal): Promise<OverlayFrame | null> {
-    const coming = index < frames ? this.#frame(index, signal) : Promise.resolve(null);
+  #shown(): Shown {
+    const { doc, ui } = this.#services.store;
+    return { doc: asWritten(doc), preprocessing: ui.seeing.preprocessing };
+  }
+
+  #coming(shown: Shown, index: number, signal: AbortSignal): Promise<OverlayFrame | null> {
+    const coming = index < shown.doc.frames.length ? this.#frame(shown, index, signal) : Promise.resolve(null);
     // Whoever waits for it hears of it; nobody does where the one before it fails.
     coming.catch(() => null);
     return coming;
   }
 
-  async #frame(index: number, signal: AbortSignal): Promise<OverlayFrame> {
-    const { studio, store } = this.#services;
-    const { doc, ui } = store;
+  async #frame({ doc, preprocessing }: Shown, index: number, signal: AbortSignal): Promise<OverlayFrame> {
+    const { studio } = this.#services;
     const entry = doc.frames[index];
     const frame = entry ? await studio.decoded(entry.id, signal) : null;
     if (!entry || !frame) throw new Error(later.exporting.film.absent(index + 1));
@@ -115,7 +129,7 @@ export class OverlayPictures {
       index,
       frame,
       window: doc.window,
-      preprocessing: ui.seeing.preprocessing,
+      preprocessing,
       undistorted: distortion?.appliesTo === 'frames' && fits(distortion, frame) ? { key: distortionKey(distortion), numbers: numbersOf(distortion) } : null,
       camera: cameraOf(doc, entry),
       poses: COMPONENT_NAMES.flatMap((component) => {

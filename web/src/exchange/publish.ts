@@ -102,13 +102,14 @@ function methodsOf(doc: Doc, component: ComponentName): string {
 const SAID: Readonly<Record<Exclude<keyof PoseFaults, 'missing' | 'doubtful'>, string>> = {
   unrefined: 'Frames with a pose that was not refined',
   unknown: 'Frames with a pose from a file, which does not say how it was found',
+  outdated: 'Frames with a pose that was found with another model, calibration or library',
   unchecked: 'Frames that no person has checked',
 };
 
 /** What the report's own lists do not have. */
 function remarksOf(doc: Doc): string[] {
   const faults = faultsOf(doc);
-  const remarks = (['unrefined', 'unknown', 'unchecked'] as const).flatMap((fault) => {
+  const remarks = (['unrefined', 'unknown', 'outdated', 'unchecked'] as const).flatMap((fault) => {
     const frames = faults[fault];
     return frames.length > 0 ? [`${SAID[fault]}: ${inRuns(frames, Infinity)} (${frames.length} of ${doc.frames.length}).`] : [];
   });

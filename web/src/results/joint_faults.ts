@@ -3,6 +3,7 @@ import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { type Exporting, isOfBoth } from '../terms/exporting';
 import { doubtOf } from './motion';
+import { outdatedIn } from './outdated';
 
 /** What somebody should know of poses before they are written: frames, by their numbers from 1. */
 export interface PoseFaults {
@@ -12,13 +13,15 @@ export interface PoseFaults {
   readonly unrefined: readonly number[];
   /** A pose was read from a file, which does not say how it was found. */
   readonly unknown: readonly number[];
+  /** It was found with another model, calibration or library. */
+  readonly outdated: readonly number[];
   /** And nobody has accepted it. */
   readonly doubtful: readonly number[];
   /** Nobody has checked a pose as it is now. */
   readonly unchecked: readonly number[];
 }
 
-export const FAULTS = ['missing', 'unrefined', 'unknown', 'doubtful', 'unchecked'] as const satisfies readonly (keyof PoseFaults)[];
+export const FAULTS = ['missing', 'unrefined', 'unknown', 'outdated', 'doubtful', 'unchecked'] as const satisfies readonly (keyof PoseFaults)[];
 
 /** Whose faults are told together: of a joint both components', of poses each component's that the file has by themselves. */
 export function toldTogether({ kind, forms, component }: Pick<Exporting, 'kind' | 'forms' | 'component'>): readonly (readonly ComponentName[])[] {
@@ -28,7 +31,8 @@ export function toldTogether({ kind, forms, component }: Pick<Exporting, 'kind' 
 
 /** Of the poses of these components: of a joint, those of both. */
 export function faultsOf(doc: Doc, components: readonly ComponentName[] = COMPONENT_NAMES): PoseFaults {
-  const faults: Record<keyof PoseFaults, number[]> = { missing: [], unrefined: [], unknown: [], doubtful: [], unchecked: [] };
+  const faults: Record<keyof PoseFaults, number[]> = { missing: [], unrefined: [], unknown: [], outdated: [], doubtful: [], unchecked: [] };
+  const outdated = new Set(components.flatMap((component) => outdatedIn(doc, component)));
   doc.frames.forEach(({ id }, index) => {
     const note = (what: keyof PoseFaults, is: boolean) => is && faults[what].push(index + 1);
     const posed = components.flatMap((component) => {
@@ -40,6 +44,7 @@ export function faultsOf(doc: Doc, components: readonly ComponentName[] = COMPON
     if (posed.length < components.length) return note('missing', true);
     note('unrefined', posed.some(({ candidate, result }) => candidate.residual === null && result.from !== 'file'));
     note('unknown', posed.some(({ result }) => result.from === 'file'));
+    note('outdated', outdated.has(index));
     note('doubtful', posed.some(({ cell, mark }) => doubtOf(cell) !== null && checkState(cell, mark) !== 'yes'));
     note('unchecked', posed.some(({ cell, mark }) => checkState(cell, mark) !== 'yes'));
     return undefined;

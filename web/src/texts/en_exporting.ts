@@ -67,11 +67,13 @@ export const exporting = {
     unknownRate: (rate: number) => `Nobody has said how fast the film was taken: it runs at ${rate} frames a second.`,
     unable: 'This browser cannot write films: save a PNG series instead.',
   },
+  outdated: 'it was found with another model, calibration or library than there is now',
   faults: {
     frames: (count: number, of: number) => `${count} of ${of} frames have numbers.`,
     missing: 'without a pose; they stay empty',
     unrefined: 'with a pose that was not refined',
     unknown: 'with a pose from a file, which does not say how it was found',
+    outdated: 'with a pose that was found with another model, calibration or library',
     doubtful: 'with a doubtful pose',
     unchecked: 'of which nobody has checked both poses',
     fault: (count: number, what: string, which: string) => `${count} ${count === 1 ? 'frame' : 'frames'} ${what}: ${which}`,

@@ -123,7 +123,7 @@ describe('files of a joint', () => {
     pose(store, 1, 'femur', { from: 'file', origin: 'a.jts' }, null);
     pose(store, 2, 'tibia', { verdict: { word: 'doubtful', because: 'so' } });
     for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f5', component }));
-    expect(faultsOf(store.doc)).toEqual({ missing: [4], unrefined: [1], unknown: [2], doubtful: [3], unchecked: [1, 2, 3, 5] });
+    expect(faultsOf(store.doc)).toEqual({ missing: [4], unrefined: [1], unknown: [2], outdated: [], doubtful: [3], unchecked: [1, 2, 3, 5] });
   });
 
   it('of one component have its faults alone', () => {
