@@ -13,7 +13,6 @@ import {
   cellOf,
   type Component,
   type Doc,
-  EMPTY_CELL,
   EMPTY_DOC,
   type FileReference,
   type ModelReference,
@@ -80,13 +79,19 @@ export function giveOutline(place: Place, to: ComponentName): Command {
     label: texts.steps.giveOutline(texts.component[to]),
     place,
     apply: (doc) => {
-      const { outline } = cellOf(doc, place.frameId, place.component);
+      const here = cellOf(doc, place.frameId, place.component);
+      const { outline } = here;
       const there = cellOf(doc, place.frameId, to);
       if (!outline || there.outline || to === place.component) return doc;
-      const given = withCell(doc, { ...place, component: to }, { outline: { ...outline }, result: null, resultOf: null });
-      return withCell(given, place, EMPTY_CELL);
+      const given = withCell(doc, { ...place, component: to }, ofOutline(there, { ...outline }));
+      return withCell(given, place, ofOutline(here, null));
     },
   };
+}
+
+/** With an outline of which nothing was found yet. A pose that a hand set is no outline's, and stays. */
+function ofOutline(cell: Cell, outline: Outline | null): Cell {
+  return isByHand(cell.result) ? { ...cell, outline } : { outline, result: null, resultOf: null };
 }
 
 /** Marks a side as unknown, or as known again where it was marked. */
@@ -226,8 +231,7 @@ export function swapModels(): Command {
     apply: (doc) => {
       const { femur, tibia } = doc.components;
       const cells = doc.cells.map((cell) => {
-        if (isSilhouette(cell.outline)) return { ...cell, outline: null, result: null, resultOf: null };
-        return anew(cell);
+        return isSilhouette(cell.outline) ? ofOutline(anew(cell), null) : anew(cell);
       });
       return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells, marks: withOtherPoses(doc, () => true) };
     },

@@ -49,8 +49,10 @@ export class FromHere {
     try {
       const { locks } = store.ui.hand;
       const by = this.#by(place);
+      const { outline } = cellOf(store.doc, place.frameId, place.component);
       const fit = await this.#ask(place, start, locks, abort);
-      if (this.#by(place) !== by) return store.sayAt(place, 'info', texts.hand.said.changed);
+      const isAsBefore = this.#by(place) === by && cellOf(store.doc, place.frameId, place.component).outline === outline;
+      if (!isAsBefore) return store.sayAt(place, 'info', texts.hand.said.changed);
       this.#take(place, start, fit);
     } catch (error) {
       if (!(error instanceof Aborted)) store.sayAt(place, 'error', sentenceOf(error));

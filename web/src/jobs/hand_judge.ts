@@ -4,10 +4,11 @@ import { inFilmOrder } from '../document/frame_index';
 import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
 import { type Cell, cellOf, chosenCandidate, type Posed, type Result, type Verdict } from '../document/types';
-import { cameraOf } from '../results/keys';
+import { cameraOf, poseKey } from '../results/keys';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameOf, onFrameInput } from './from_here';
+import { isLibraryOpen } from './library_ready';
 import { Pause } from './pause';
 import { flatten } from './poser';
 import type { Services } from './services';
@@ -27,8 +28,8 @@ export const HAND_REST = 200;
 export class HandJudge {
   readonly #services: Services;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
-  /** Nothing could be held against these; with the outline they had. */
-  readonly #untold = new WeakMap<Posed, Cell['outline']>();
+  /** Nothing could be held against these; with the outline they had, and what they would have been judged by. */
+  readonly #untold = new WeakMap<Posed, { readonly outline: Cell['outline']; readonly key: string | null }>();
   readonly #pause = new Pause();
   #busy = false;
 
@@ -51,16 +52,24 @@ export class HandJudge {
     const places = inFilmOrder(store.doc, givenPoses.in(store.doc.cells));
     for (const { frameId, component } of shown ? [shown, ...places] : places) {
       const cell = cellOf(store.doc, frameId, component);
-      if (this.#isUnjudged(cell) && store.ui.libraries[component].state === 'ready') return { place: { frameId, component }, cell };
+      if (this.#isUnjudged(cell, this.#keyOf({ frameId, component })) && isLibraryOpen(store, component)) return { place: { frameId, component }, cell };
     }
     return null;
   }
 
-  #isUnjudged(cell: Cell): cell is Task['cell'] {
+  /** With which model, calibration and library. */
+  #keyOf(place: Place): string | null {
+    const { doc } = this.#services.store;
+    const frame = frameOf(doc, place);
+    return frame && poseKey(doc, place.component, frame);
+  }
+
+  #isUnjudged(cell: Cell, key: string | null): cell is Task['cell'] {
     const { result, resultOf, outline } = cell;
     if (!isGiven(result)) return false;
     const isOld = isClosed(resultOf) !== isClosed(outline) || (isClosed(outline) && resultOf !== outline);
-    return (result.verdict === null || isOld) && this.#untold.get(result) !== outline;
+    const untold = this.#untold.get(result);
+    return (result.verdict === null || isOld) && !(untold && untold.outline === outline && untold.key === key);
   }
 
   async #next(): Promise<void> {
@@ -68,12 +77,14 @@ export class HandJudge {
     if (!task) return;
     this.#busy = true;
     const { place, cell } = task;
+    const key = this.#keyOf(place);
     try {
       const verdict = await this.#ask(task);
-      this.#services.store.amend((doc) => (cellOf(doc, place.frameId, place.component).outline === cell.outline ? withHandVerdict(doc, place, cell.result, verdict) : doc));
+      const isAsBefore = this.#keyOf(place) === key && cellOf(this.#services.store.doc, place.frameId, place.component).outline === cell.outline;
+      if (isAsBefore) this.#services.store.amend((doc) => withHandVerdict(doc, place, cell.result, verdict));
     } catch (error) {
       // Without pixels or a model nobody can say; the pose is there all the same.
-      if (!(error instanceof Aborted)) this.#untold.set(cell.result, cell.outline);
+      if (!(error instanceof Aborted)) this.#untold.set(cell.result, { outline: cell.outline, key });
     } finally {
       this.#busy = false;
       this.#consider();

@@ -1,4 +1,5 @@
 import type { Store } from '../document/store';
+import { libraryKey } from '../results/keys';
 import type { ComponentName } from '../terms/component';
 
 /** Resolves when a component's library is not being built, or no longer: it is ready then, or there is none. */
@@ -12,4 +13,10 @@ export function libraryReady(store: Store, component: ComponentName): Promise<vo
       resolve();
     });
   });
+}
+
+/** Is the library open that the document asks for now? Until the librarian has heard of a change that is the one before. */
+export function isLibraryOpen({ doc, ui }: Pick<Store, 'doc' | 'ui'>, component: ComponentName): boolean {
+  const library = ui.libraries[component];
+  return library.state === 'ready' && library.key === libraryKey(doc, component);
 }

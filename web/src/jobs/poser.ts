@@ -11,6 +11,7 @@ import { cameraOf, poseKey, poseKeys } from '../results/keys';
 import { PROGRAM } from '../terms/program';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Refined } from '../workers/protocol/match';
+import { isLibraryOpen } from './library_ready';
 import { Pause } from './pause';
 import { sentenceOf } from './services';
 import { surroundingsOf } from '../results/surroundings';
@@ -181,10 +182,10 @@ export class Poser {
   }
 
   #task(method: Task['method'], frame: FrameEntry, component: ComponentName, shown: boolean): Task | null {
-    const { doc, ui } = this.#store;
+    const { doc } = this.#store;
     const cell = cellOf(doc, frame.id, component);
     const { outline } = cell;
-    if (!outline?.closed || ui.libraries[component].state !== 'ready') return null;
+    if (!outline?.closed || !isLibraryOpen(this.#store, component)) return null;
     const key = poseKey(doc, component, frame);
     if (!key) return null;
     const place = { frameId: frame.id, component };

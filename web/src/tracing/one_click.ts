@@ -2,8 +2,9 @@ import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { gaveWay } from '../document/followed';
+import { indexOfFrame } from '../document/frame_index';
 import type { Store } from '../document/store';
-import { cellKey, cellOf, type FrameEntry, verdictOf } from '../document/types';
+import { cellKey, cellOf, chosenCandidate, type FrameEntry, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -86,15 +87,18 @@ export class OneClick {
     const { component } = place;
     const pixels = await this.#services.studio.framePixels(frame.id);
     const input = { ...this.#input(prompt, place, frame, bright, pixels), pose };
-    const before = cellOf(store.doc, frame.id, component).outline;
+    const before = cellOf(store.doc, frame.id, component);
     const key = input.withModel ? poseKey(store.doc, component, frame) : null;
     const answer = await this.#worker.call('oneClick', input, {
       signal: abort.signal,
       transfer: [input.frame.pixels.buffer],
       onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
     });
-    const changed = cellOf(store.doc, frame.id, component).outline !== before;
-    if (changed) return store.sayAt(place, 'info', texts.tracing.said.changedMeanwhile);
+    // It would come into the work that was begun meanwhile.
+    if (indexOfFrame(store.doc, frame.id) < 0) return;
+    const now = cellOf(store.doc, frame.id, component);
+    const isSetSince = isByHand(now.result) && chosenCandidate(now)?.pose !== chosenCandidate(before)?.pose;
+    if (isSetSince || now.outline !== before.outline) return store.sayAt(place, 'info', texts.tracing.said.changedMeanwhile);
     // What a good click tells of the film holds for the next, and for the other tools.
     if (store.ui.tracing.bright === null && answer.match?.verdict?.word === 'good') store.setTracing({ bright: answer.bright });
     this.#take(answer, place, key, input.film);

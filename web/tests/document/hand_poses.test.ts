@@ -28,6 +28,7 @@ import type { Services } from '../../src/jobs/services';
 import { surroundingsOf } from '../../src/results/surroundings';
 import { framePoint } from '../../src/geometry/points';
 import { rememberTaste } from '../../src/keep/taste';
+import { keepLibraryOpen } from '../jobs/open_library';
 
 const OWN_AXES: Axes = { directions: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], from: 'shape', told: 'all' };
 const PLACE: Place = { frameId: 'f', component: 'femur' };
@@ -42,7 +43,7 @@ function traced(): Store {
   store.perform(addFrames([{ id: 'f', name: 'f', source: 's', indexInSource: 0, width: 100, height: 100 }]));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
-  store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+  keepLibraryOpen(store, 'femur');
   for (const [column, row] of [[10, 10], [50, 10], [30, 60]] as const) store.perform(addPoint(PLACE, framePoint(column, row)));
   store.perform(closeOutline(PLACE));
   return store;

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { addFrames, addPoint, closeOutline, loadPoses, setCalibration } from '../../src/document/commands';
+import { addFrames, addPoint, closeOutline, loadPoses, setCalibration, setModel } from '../../src/document/commands';
 import type { Place } from '../../src/document/command';
 import { setPoseByHand } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
@@ -7,6 +7,7 @@ import { cellOf, verdictOf, type Verdict } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import type { PoseNumbers } from '../../src/geometry/pose_numbers';
 import { HAND_REST, HandJudge } from '../../src/jobs/hand_judge';
+import { keepLibraryOpen } from './open_library';
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
 const poseOf = (x: number): PoseNumbers => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
@@ -24,7 +25,8 @@ function bench({ pixels = true } = {}) {
   new HandJudge({ store, studio } as unknown as ConstructorParameters<typeof HandJudge>[0], { call } as unknown as ConstructorParameters<typeof HandJudge>[1]);
   store.perform(addFrames([{ id: 'f', name: 'f', source: 's', indexInSource: 0, width: 100, height: 100 }]));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
-  store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+  store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
+  keepLibraryOpen(store, 'femur');
   const verdict = () => verdictOf(cellOf(store.doc, 'f', 'femur').result);
   const trace = () => {
     for (const [column, row] of [[10, 10], [50, 10], [30, 60]] as const) store.perform(addPoint(PLACE, framePoint(column, row)));

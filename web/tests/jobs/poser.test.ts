@@ -8,6 +8,7 @@ import { PACE, PICTURED, Poser, REST } from '../../src/jobs/poser';
 import type { Match, MatchInput, Refined } from '../../src/workers/protocol/match';
 import { WorkerStopped } from '../../src/workers/bridge';
 import { framePoint } from '../../src/geometry/points';
+import { keepLibraryOpen } from './open_library';
 
 interface Asked {
   readonly method: string;
@@ -47,7 +48,7 @@ function bench() {
   store.perform(addFrames([{ id: 'f', name: 'f', source: 's', indexInSource: 0, width: 100, height: 100 }]));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
-  store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+  keepLibraryOpen(store, 'femur');
   for (const [column, row] of [[10, 10], [50, 10], [30, 60]] as const) store.perform(addPoint(PLACE, framePoint(column, row)));
   store.perform(closeOutline(PLACE));
   const result = (): Result | null => cellOf(store.doc, 'f', 'femur').result;
