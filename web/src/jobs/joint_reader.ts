@@ -25,9 +25,11 @@ export class JointReader {
   /** What the numbers below rest on. */
   #key = '';
   readonly #known = new Map<string, Known>();
-  /** What the worker refused is not asked again: joints by their keys, frames by their femoral poses. */
+  /** What the worker refused is not asked again: joints by their keys, frames by their poses, the tibial ones by the femoral ones. */
   readonly #refusedJoints = new Set<string>();
-  readonly #refusedFrames = new WeakSet<Candidate>();
+  readonly #refusedPairs = new WeakMap<Candidate, WeakSet<Candidate>>();
+  /** Femoral poses of frames that were refused together: each is asked by itself. */
+  readonly #alone = new WeakSet<Candidate>();
   #stops = 0;
   #busy = false;
   #shown: { readonly asked: JointAsked; readonly known: number; readonly numbers: JointNumbers } | null = null;
@@ -105,7 +107,7 @@ export class JointReader {
   #missing(asked: JointAsked): readonly JointFrame[] {
     return asked.frames.filter(({ id, femur, tibia }) => {
       const known = this.#known.get(id);
-      return (known?.femur !== femur || known.tibia !== tibia) && !this.#refusedFrames.has(femur);
+      return (known?.femur !== femur || known.tibia !== tibia) && !this.#refusedPairs.get(femur)?.has(tibia);
     });
   }
 
@@ -120,17 +122,24 @@ export class JointReader {
     const key = keyOf(asked);
     const frames = this.#open?.key === key && this.#key === key ? this.#missing(asked) : asked.frames;
     if (frames.length === 0 || this.#refusedJoints.has(key)) return;
+    const some = this.#some(frames);
     this.#busy = true;
     try {
-      await this.#workOut(asked, key, frames.slice(0, AT_ONCE));
+      await this.#workOut(asked, key, some);
     } catch (error) {
-      this.#failed(error, key, frames.slice(0, AT_ONCE));
+      this.#failed(error, key, some);
     } finally {
       this.#busy = false;
       // No part of the state: the views are notified, and the rest is looked at.
       this.#version += 1;
       store.show({});
     }
+  }
+
+  /** The next that are asked for together. */
+  #some(frames: readonly JointFrame[]): readonly JointFrame[] {
+    const first = frames.findIndex(({ femur }) => this.#alone.has(femur));
+    return frames.slice(0, first < 0 ? AT_ONCE : Math.min(AT_ONCE, Math.max(1, first)));
   }
 
   async #workOut(asked: JointAsked, key: string, frames: readonly JointFrame[]): Promise<void> {
@@ -154,9 +163,17 @@ export class JointReader {
     const wasOpen = this.#open?.key === key;
     if (error instanceof WorkerStopped) this.#open = null;
     if (error instanceof Aborted || (error instanceof WorkerStopped && ++this.#stops < 3)) return;
-    if (wasOpen) for (const { femur } of frames) this.#refusedFrames.add(femur);
+    if (wasOpen && frames.length > 1) return frames.forEach(({ femur }) => this.#alone.add(femur));
+    if (wasOpen) frames.forEach((frame) => this.#refuse(frame));
     else this.#refusedJoints.add(key);
     this.#services.store.say('error', sentenceOf(error));
+  }
+
+  /** What was known of it is of the poses before. */
+  #refuse({ id, femur, tibia }: JointFrame): void {
+    this.#known.delete(id);
+    const refused = this.#refusedPairs.get(femur) ?? new WeakSet();
+    this.#refusedPairs.set(femur, refused.add(tibia));
   }
 
   #hasMeshes({ models }: JointAsked): boolean {
