@@ -281,7 +281,8 @@ impl FrameSearch {
         Poll::Ready(wanted.brought_to_goal(memory, candidates))
     }
 
-    /// Begins near a known pose, where there is one that may lead to all that is wanted.
+    /// Begins near a known pose, where there is one that may lead to all that is wanted. By itself, so that it leaves nothing on the stack.
+    #[inline(never)]
     fn begin(&mut self, wanted: &Wanted<'_>, found: &mut Found) {
         self.at = At::First;
         let is_outline = !matches!(wanted.goal, Goal::Library);
@@ -296,6 +297,7 @@ impl FrameSearch {
     }
 
     /// Whether the best pose near the one that was given is as good as that one was.
+    #[inline(never)]
     fn is_usual(&self, best: Option<&Candidate>) -> bool {
         let limit_px = self.near.map_or(0.0, |near| near.limit_px);
         best.is_some_and(|best| {

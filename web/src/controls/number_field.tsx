@@ -12,9 +12,12 @@ interface NumberFieldProps {
 /** A number with its unit. An empty field is NaN: whoever uses the number says what is wrong with it. */
 export function NumberField({ label, unit, value, placeholder, onChange }: NumberFieldProps) {
   const input = useRef<HTMLInputElement>(null);
-  useLayoutEffect(() => {
-    // What is being typed, as "0.", is a number already: written back it would lose its end.
+  const show = () => {
     if (input.current && !Object.is(input.current.valueAsNumber, value)) input.current.value = Number.isNaN(value) ? '' : String(value);
+  };
+  useLayoutEffect(() => {
+    // What is being typed, as "0.", is a number already, or none yet: written back it would lose its end.
+    if (document.activeElement !== input.current) show();
   }, [value]);
   return (
     <label class="field">
@@ -26,6 +29,7 @@ export function NumberField({ label, unit, value, placeholder, onChange }: Numbe
         inputMode="decimal"
         aria-label={`${label} (${unit})`}
         placeholder={placeholder ?? ''}
+        onBlur={show}
         onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
       />
       <span class="unit">{unit}</span>
