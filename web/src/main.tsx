@@ -28,6 +28,7 @@ import { JointWatch } from './jobs/joint_watch';
 import { Landscapes } from './jobs/landscape';
 import { keepLeads } from './jobs/leads';
 import { Librarian } from './jobs/librarian';
+import { attempt } from './keep/attempt';
 import { Keeper } from './keep/keeper';
 import { restoreWork, workToRestore } from './keep/restore';
 import { tellLostJobs } from './keep/lost_jobs';
@@ -121,7 +122,7 @@ async function start(root: HTMLElement): Promise<void> {
   );
   Object.assign(globalThis, { fluoropose: { atRest, shown } });
   if (kept) await restoreWork(services, keeper, kept);
-  tellLostJobs(services.store, sessionStorage, () => actions.run({ name: 'work', command: 'follow-film' }));
+  tellLostJobs(services.store, attempt(() => sessionStorage), () => actions.run({ name: 'work', command: 'follow-film' }));
 }
 
 const root = document.getElementById('page');

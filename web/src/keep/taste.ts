@@ -1,5 +1,6 @@
 import { readTaste, writeTaste } from './taste_text';
 import type { Store } from '../document/store';
+import { attempt } from './attempt';
 
 const KEY = 'fluoropose-taste';
 
@@ -19,12 +20,4 @@ export function rememberTaste(store: Store, storage: Pick<Storage, 'getItem' | '
 /** Even to ask for it may be forbidden. */
 function browserStorage(): Storage | null {
   return attempt(() => window.localStorage) ?? null;
-}
-
-function attempt<T>(work: () => T): T | null {
-  try {
-    return work();
-  } catch {
-    return null;
-  }
 }

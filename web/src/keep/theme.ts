@@ -1,4 +1,5 @@
 import type { Store, Theme } from '../document/store';
+import { attempt } from './attempt';
 
 const KEY = 'fluoropose-theme';
 
@@ -19,12 +20,4 @@ export function rememberTheme(store: Store, root: HTMLElement): void {
 
 export function otherTheme(theme: Theme): Theme {
   return theme === 'dark' ? 'light' : 'dark';
-}
-
-function attempt<T>(work: () => T): T | null {
-  try {
-    return work();
-  } catch {
-    return null;
-  }
 }

@@ -56,4 +56,18 @@ describe('work that was cut off by a reload', () => {
     expect(after.ui.notice?.text).toMatch(/came to no end: Reading/);
     expect(after.ui.notice?.offer).toBeUndefined();
   });
+
+  it.each(['{', '7', null])('is no reason to fail where the tab keeps %s, or lets nobody ask', (kept) => {
+    const tab = { getItem: () => kept, setItem: () => undefined, removeItem: () => undefined };
+    const store = new Store();
+    tellLostJobs(store, tab, () => undefined);
+    const refuse = () => {
+      throw new DOMException('denied', 'SecurityError');
+    };
+    tellLostJobs(store, { getItem: refuse, setItem: refuse, removeItem: refuse }, () => undefined);
+    tellLostJobs(store, null, () => undefined);
+    store.setJob(JOB);
+    leave();
+    expect(store.ui.notice).toBeNull();
+  });
 });
