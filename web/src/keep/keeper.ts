@@ -15,7 +15,7 @@ import { Shelf, type CellChange, type KeptWork } from './shelf';
 export const WAIT = 400;
 
 /** A work and where the person looked in it. */
-interface Seen {
+export interface Seen {
   readonly doc: Doc;
   readonly view: string;
 }
@@ -84,6 +84,11 @@ export class Keeper {
   /** True if this tab has the work now. */
   claim(id: string): Promise<boolean> {
     return this.#claims.claim(id);
+  }
+
+  /** A work as it was left for other work, as long as the storage has not all of it; null once it has. */
+  left(id: string): Seen | null {
+    return this.#left.get(id) ?? null;
   }
 
   /** Deletes a work that is open nowhere, and the files that nothing else names. */

@@ -32,7 +32,7 @@ export async function restoreWork(services: Services, keeper: Keeper, work: Kept
     keeper.adopt(doc, work.savedAt);
     store.amend(() => doc);
     store.settle();
-    showView(services, work);
+    showView(services, work.view);
     const offer = { label: texts.keep.startAnew, take: () => startAnew(services) };
     store.say('info', texts.keep.restored(work.name, work.savedAt), offer);
     await bringKeptFiles(services, doc);
@@ -47,18 +47,25 @@ function isStillKept(keeper: Pick<Keeper, 'shelf'>, { id }: KeptWork): Promise<b
   return keeper.shelf().then((shelf) => shelf.work(id)).then((found) => found !== null, () => true);
 }
 
-/** Opens work that was put aside. A command: undo brings back what was open. */
+/** Opens work that was put aside, as it was left. A command: undo brings back what was open. */
 export async function openKept(services: Services, keeper: Keeper, id: string): Promise<void> {
   const { store } = services;
+  // What the storage has no room for is here alone.
+  const left = keeper.left(id);
+  const { doc, view } = left ? { doc: left.doc, view: JSON.parse(left.view) as KeptWork['view'] } : await readKept(services, keeper, id);
+  store.perform({ label: texts.keep.openLabel, apply: () => doc });
+  showView(services, view);
+  store.show({ popover: null });
+  await bringKeptFiles(services, doc);
+  store.say('info', texts.keep.opened(doc.name));
+}
+
+/** What the storage has of a work that no other tab has open. */
+async function readKept(services: Services, keeper: Keeper, id: string): Promise<{ readonly doc: Doc; readonly view: KeptWork['view'] }> {
   const work = await (await keeper.shelf()).work(id);
   if (!work) throw new Error(texts.keep.gone);
   if (!(await keeper.claim(id))) throw new Error(texts.keep.elsewhere);
-  const doc = await counted(readWhole(services, keeper, work));
-  store.perform({ label: texts.keep.openLabel, apply: () => doc });
-  showView(services, work);
-  store.show({ popover: null });
-  await bringKeptFiles(services, doc);
-  store.say('info', texts.keep.opened(work.name));
+  return { doc: await counted(readWhole(services, keeper, work)), view: work.view };
 }
 
 /**
@@ -75,10 +82,10 @@ async function readWhole({ assets }: Services, keeper: Keeper, work: KeptWork): 
   return { ...readDoc({ ...work.document, cells }, texts.keep.place), work: work.id };
 }
 
-function showView({ store }: Services, work: KeptWork): void {
-  const { frameIndex, component, overlayOpacity } = readView(work.view, texts.keep.place);
+function showView({ store }: Services, view: KeptWork['view']): void {
+  const { frameIndex, component, overlayOpacity } = readView(view, texts.keep.place);
   // Sessions have none, nor works from before.
-  const { tool: kept } = work.view as { readonly tool?: unknown };
+  const { tool: kept } = view as { readonly tool?: unknown };
   const tool = TOOL_NAMES.find((name) => name === kept) ?? store.ui.tool;
   store.show({ tool, component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, selectedPoint: null, savedAt: null });
   store.goTo(frameIndex);

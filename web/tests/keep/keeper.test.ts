@@ -4,8 +4,10 @@ import { addFrames, addPoint, closeOutline, deleteOutline } from '../../src/docu
 import type { Place } from '../../src/document/command';
 import { Store } from '../../src/document/store';
 import { type Doc, EMPTY_DOC } from '../../src/document/types';
+import type { Services } from '../../src/jobs/services';
 import { Claims } from '../../src/keep/claims';
 import { changedCells, Keeper, WAIT } from '../../src/keep/keeper';
+import { openKept } from '../../src/keep/restore';
 import type { CellChange, KeptWork, Shelf } from '../../src/keep/shelf';
 import { framePoint } from '../../src/geometry/points';
 import { ClearedBlob } from '../cleared_blob';
@@ -40,6 +42,9 @@ function memory() {
       if (work) works.set(id, { ...work, putAside: true });
       return work !== undefined;
     },
+    work: async (id: string) => works.get(id) ?? null,
+    cells: async (id: string) => Object.fromEntries(cells.get(id) ?? []),
+    files: async () => [],
     fileDigests: async () => [...files],
     addFile: async ({ sha256, blob }: { sha256: string; blob: Blob }) => {
       if (blob instanceof ClearedBlob) throw new DOMException('Failed to write blobs', 'DataError');
@@ -393,6 +398,32 @@ describe('keeper', () => {
     await passes(10_000);
     expect(store.ui.keeping.state).toBe('kept');
     expect(works.get(work)).toMatchObject({ name: 'large', putAside: true });
+  });
+
+  it('what was left and found no room is opened again as it was left, not in the state that the storage has', async () => {
+    const { store, assets, keeper, open, cells, trouble } = await bench();
+    const services = { store, assets, studio: { knowFrame: () => undefined } } as unknown as Services;
+    open();
+    await passes(WAIT + SETTLE);
+    const { work } = store.doc;
+    trouble.refuse = new DOMException('full', 'QuotaExceededError');
+    for (const column of [1, 2, 3]) store.perform(point(column));
+    await passes(WAIT + SETTLE);
+    const latest = store.doc;
+    store.perform(START_ANEW);
+    store.perform(named('another'));
+    await openKept(services, keeper, work);
+    expect(store.doc).toBe(latest);
+    trouble.refuse = null;
+    await passes(20_000);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(JSON.stringify([...cells.get(work)!.values()])).toContain('[3,1]');
+    // Once it is written the storage has all of it.
+    store.perform(START_ANEW);
+    await passes(WAIT + SETTLE);
+    await openKept(services, keeper, work);
+    expect(store.doc).not.toBe(latest);
+    expect(store.doc.cells.at('f', 'femur')?.outline?.points).toHaveLength(3);
   });
 
   it('is no unit of undo', async () => {
