@@ -1,22 +1,24 @@
-import { type Decoded, decodeFrames, holdModel } from './bring_files';
+import { holdModel } from './bring_files';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
-import { asSentence, ended } from '../texts/sentences';
-import { lookedAt, saidWhereLarge, TOLD } from './reading';
+import { ended } from '../texts/sentences';
+import { lookedAt, saidWhereLarge } from './reading';
 import * as commands from '../document/commands';
 import { droppedIn } from '../document/found_anew';
 import { readDistortionFile } from '../document/distortion';
-import { distinct } from '../document/same_frames';
-import { componentIn, takeStudy, type Study } from '../document/study';
-import type { Doc, FrameEntry } from '../document/types';
-import { Aborted } from '../workers/bridge';
+import { takeStudy } from '../document/study';
+import type { Doc } from '../document/types';
 import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { later } from '../texts/later';
 import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
+import { openFrames, sizesAmong } from './frames_opener';
 import { atHand, componentFor } from './guess';
+import { attempt, fewNames, noOutcome, type Outcome } from './outcome';
 import { rowsOfFrames } from './pose_rows';
+import { type Recognised, recognise } from './recognise';
 import { offerStatedOrder } from './stated_order';
+import { asTheStudyMeans, framesMeant, studyAmong, type StudyFile } from './study_files';
 import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
 import type { Offer } from '../document/store';
@@ -24,14 +26,8 @@ import { areOthers, stepAside } from './another_study';
 import { cameraKey, newCameraDoubts } from '../jobs/camera_doubts';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
-import { asJob, sentenceOf, type Services } from '../jobs/services';
+import type { Services } from '../jobs/services';
 import { mismatchOf, openSession } from './session_opener';
-
-interface Recognised extends Incoming {
-  readonly kind: FileKind;
-  /** How it begins. */
-  readonly head: Uint8Array<ArrayBuffer>;
-}
 
 /**
  * Opens whatever it is given: each file is recognised by its content. A file that cannot be read is named and the
@@ -43,9 +39,8 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   await saidWhereLarge(store, files);
   const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
-  const opened: string[] = [];
-  const failed: string[] = [];
-  const leftOut: string[] = [];
+  const outcome = noOutcome();
+  const { opened, failed, leftOut } = outcome;
   const study = await studyAmong(all, failed);
   const recognised = study ? asTheStudyMeans(study, all, leftOut) : all;
   const outlines = await outlineFiles(services, recognised);
@@ -59,10 +54,10 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   // Of a whole folder what is not recognised is told in one sentence.
   const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
-  for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
-  if (frames.length > 0) await openFrames(services, frames, opened, failed, leftOut);
+  for (const file of single) await attempt(file, () => openOne(services, file, failed), outcome);
+  if (frames.length > 0) await openFrames(services, frames, outcome);
   const poses = sortedPoses(services.store.state, recognised.filter((file) => file.kind === 'poses'));
-  for (const file of poses.clear) await attempt(file, () => openPoses(services, file), opened, failed);
+  for (const file of poses.clear) await attempt(file, () => openPoses(services, file), outcome);
   if (study) opened.push(await openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
@@ -70,7 +65,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   store.show({ component: atHand(store.doc, store.ui.component) });
   // It stands in the line with what is shown last.
   if (aside) (failed.length > 0 ? failed : leftOut).unshift(aside.sentence);
-  tell(services, opened, failed, leftOut, aside?.offer);
+  tell(services, outcome, aside?.offer);
   offerStated(services, frames.length > 0);
   offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, poses);
@@ -96,55 +91,13 @@ function askWhichPoses(services: Services, poses: SortedPoses<Recognised>): void
 }
 
 async function openChosenPoses(services: Services, files: readonly Recognised[]): Promise<void> {
-  const opened: string[] = [];
-  const failed: string[] = [];
-  for (const file of files) await attempt(file, () => openPoses(services, file), opened, failed);
-  tell(services, opened, failed);
+  const outcome = noOutcome();
+  for (const file of files) await attempt(file, () => openPoses(services, file), outcome);
+  tell(services, outcome);
 }
 
 /** Frames, poses, studies and videos have their own time. */
 const LATER: readonly FileKind[] = ['frames', 'poses', 'study', 'video'];
-
-/** A study says which of the files beside it is what; what it tells of the models is taken once they are here. */
-async function studyAmong(files: readonly Recognised[], failed: string[]): Promise<StudyFile | null> {
-  const file = files.find(({ kind }) => kind === 'study');
-  if (!file) return null;
-  try {
-    const { readStudy } = await import('./study_file');
-    return { name: file.name, study: readStudy(await textOf(file)) };
-  } catch (error) {
-    failed.push(named(file.name, sentenceOf(error)));
-    return null;
-  }
-}
-
-interface StudyFile {
-  readonly name: string;
-  readonly study: Study;
-}
-
-/** Files with the components that the study means. Where it names its reference poses, others are those of other methods. */
-function asTheStudyMeans({ study }: StudyFile, files: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
-  const meant = files.map((file): Recognised => {
-    const said = file.kind === 'model' ? componentIn(study, 'model', file.name) : file.kind === 'poses' ? componentIn(study, 'reference', file.name) : undefined;
-    return { ...file, component: file.component ?? said };
-  });
-  const poses = files.filter(({ kind }) => kind === 'poses');
-  const others = poses.filter(({ name }) => !componentIn(study, 'reference', name));
-  if (others.length === 0 || others.length === poses.length) return meant;
-  leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
-  return meant.filter(({ blob }) => !others.some((other) => other.blob === blob));
-}
-
-/** Where the study names the folder of its frames, pictures elsewhere are none: a report's figure, overlays. */
-function framesMeant(study: StudyFile | null, images: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
-  const folder = study?.study.frames?.replace(/^\.\//, '').replace(/\/$/, '');
-  const isThere = ({ name, path }: Recognised) => `/${path ?? ''}`.endsWith(`/${folder}/${name}`);
-  const others = images.filter((file) => !isThere(file));
-  if (!folder || others.length === 0 || others.length === images.length) return images;
-  leftOut.push(texts.study.otherImages(others.length, fewNames(others)));
-  return images.filter(isThere);
-}
 
 /** What opens the first of the videos that were given. */
 export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
@@ -152,15 +105,8 @@ export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
 async function beginFirstVideo(videos: readonly Recognised[], begin: BeginVideo, failed: string[]): Promise<void> {
   const [first, ...others] = videos;
   if (!first) return;
-  await attempt(first, async () => ((await begin(first)), ''), [], failed);
+  await attempt(first, async () => ((await begin(first)), ''), { opened: [], failed });
   if (others.length > 0) failed.push(texts.files.video.oneAtATime);
-}
-
-/** A few names, and how many more there are. */
-function fewNames(files: readonly Incoming[]): string {
-  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
-  const rest = files.length - names.length;
-  return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
 }
 
 /** Frames that state sizes and distances: said once, with a button to look at them. Nothing is taken by itself. */
@@ -215,11 +161,9 @@ async function proposeOutlines(services: Services, outlines: readonly OutlineFil
 
 /** Opens images as frames, whatever they look like. */
 async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
-  const opened: string[] = [];
-  const failed: string[] = [];
-  const news: string[] = [];
-  await openFrames(services, files, opened, failed, news);
-  tell(services, opened, failed, news);
+  const outcome = noOutcome();
+  await openFrames(services, files, outcome);
+  tell(services, outcome);
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
@@ -227,42 +171,11 @@ const ORDER: readonly FileKind[] = [
   'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
 ];
 
-/** So much of it is kept: an image's size stands there, bytes. */
-const HEAD = 64;
-
-/** A file is told by so much of its beginning and its length, bytes (`SNIFFED` in `wasm/decode/src/sniff.rs`). */
-const SNIFFED = 1 << 16;
-
-async function recognise({ decoder }: Services, file: Incoming): Promise<Recognised> {
-  const { blob, name } = file;
-  const read = await bytesOf(blob.slice(0, SNIFFED));
-  const head = read.slice(0, HEAD);
-  return { ...file, head, kind: await decoder.call('sniff', { head: read, length: blob.size, name }, { transfer: [read.buffer] }) };
-}
-
-async function attempt(
-  file: Incoming,
-  open: () => Promise<string>,
-  opened: string[],
-  failed: string[],
-): Promise<void> {
-  try {
-    opened.push(await open());
-  } catch (error) {
-    if (!(error instanceof Aborted)) failed.push(named(file.name, sentenceOf(error)));
-  }
-}
-
-/** The sentence with the file's name, which some begin with already. */
-function named(name: string, sentence: string): string {
-  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
-}
-
 /** So many sentences of what failed fit the line, which shows one notice; the list of messages has them all. */
 const SHOWN = 3;
 
 /** What was left out of a folder is news, no error: nobody asked for it. */
-function tell({ store }: Services, opened: readonly string[], failed: readonly string[], leftOut: readonly string[] = [], offer?: Offer): void {
+function tell({ store }: Services, { opened, failed, leftOut }: Outcome, offer?: Offer): void {
   const news = [...(opened.length > 0 ? [texts.said.opened(opened.join(', '))] : []), ...leftOut];
   if (news.length > 0) store.say(opened.length > 0 ? 'info' : 'error', news.join(' '), offer);
   if (failed.length === 0) return;
@@ -365,109 +278,4 @@ async function openPoses({ store, studio }: Services, file: Incoming): Promise<s
   const { asPoses, asPosesWithout } = texts.said;
   const of = texts.component[component];
   return poses.length === frames.length ? asPoses(file.name, of) : asPosesWithout(file.name, of, unread);
-}
-
-// --- Frames -------------------------------------------------------------------------------------------------------
-
-async function openFrames(
-  services: Services,
-  files: readonly Incoming[],
-  opened: string[],
-  failed: string[],
-  news: string[],
-): Promise<void> {
-  const abort = new AbortController();
-  const decoded: Decoded[] = [];
-  const job = {
-    title: texts.said.openingFrames(files.length),
-    unit: files.length === 1 ? texts.said.frames : texts.said.files,
-    total: files.length,
-    cancel: () => abort.abort(),
-  };
-  const lost: string[] = [];
-  await asJob(services.store, job, async (report) => {
-    for (const [index, file] of files.entries()) {
-      // What was decoded until then stays.
-      if (abort.signal.aborted) break;
-      const reportFrames = (done: number, total: number) => files.length === 1 && report(done, total);
-      const told = failed.length;
-      await attempt(
-        file,
-        async () => {
-          const asset = await services.assets.add(file.name, file.blob);
-          decoded.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
-          return '';
-        },
-        [],
-        failed,
-      );
-      if (failed.length > told) lost.push(file.name);
-      if (files.length > 1 && ((index + 1) % TOLD === 0 || files.length < 4 * TOLD)) report(index + 1, files.length);
-    }
-  });
-  const entries = decoded.map(({ entry }) => entry);
-  const isMended = entries.length > 0 && entries.every(({ name }) => services.store.doc.unread.includes(name));
-  const unread = unreadAfter(services.store.doc, lost, entries);
-  if (entries.length === 0) return keepUnread(services, unread);
-  addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
-  news.push(...repeatsAmong(decoded), ...(await gapsAmong(services, files)));
-  opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
-}
-
-/** Files of frames that could not be read, until they are opened mended: files of poses may have rows for them. */
-function unreadAfter({ unread }: Doc, lost: readonly string[], came: readonly FrameEntry[]): readonly string[] {
-  return [...unread.filter((name) => !lost.includes(name)), ...lost].filter((name) => !came.some((entry) => entry.name === name));
-}
-
-/** Without a frame there is no work yet that would have to know. */
-function keepUnread({ store }: Services, unread: readonly string[]): void {
-  if (store.doc.frames.length > 0) store.amend((doc) => ({ ...doc, unread }));
-}
-
-/** `isMended`: they could not be read when those beside them were opened, and have their places among them. */
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], unread: readonly string[], isMended: boolean, path = ''): void {
-  const first = store.doc.frames.length;
-  const isByName = store.doc.frames.every(({ name }, at, all) => at === 0 || byName(all[at - 1]!.name, name) < 0);
-  store.perform(commands.addFrames(entries, unread, isMended && isByName ? byName : undefined));
-  // Frames that were here before may be of another film.
-  const rate = first === 0 && entries.length > 1 ? (studio.statedGeometry(entries[0]!.id)?.rate ?? null) : null;
-  if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
-  if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: folderOf(path) ?? studyName(entries[0]!) }));
-  if (store.doc.frames.length > first) store.goTo(isMended ? store.doc.frames.findIndex(({ id }) => id === entries[0]!.id) : first);
-}
-
-/** Pairs of frames that are named. */
-const NAMED = 3;
-
-/** Neighbours with the same picture: a film that stands still for a frame is rare, and one that was written twice is not. */
-function repeatsAmong(decoded: readonly Decoded[]): readonly string[] {
-  const pairs = decoded.flatMap(({ print, entry: { width } }, at) => {
-    const next = decoded[at + 1];
-    return next && next.print === print && next.entry.width === width ? [[at + 1, at + 2] as const] : [];
-  });
-  return pairs.length > 0 ? [texts.said.repeats(pairs.slice(0, NAMED), Math.max(pairs.length - NAMED, 0))] : [];
-}
-
-async function gapsAmong({ decoder }: Services, files: readonly Incoming[]): Promise<readonly string[]> {
-  const told = await decoder.call('gapsAmong', { names: files.map(({ name }) => name) });
-  return told === null ? [] : [asSentence(told)];
-}
-
-/** A film has frames of one size: another one is told when it comes, not when somebody follows the film. */
-function sizesAmong(frames: readonly FrameEntry[], came: number): readonly string[] {
-  const [first] = frames;
-  const other = came > 0 && frames.find(({ width, height }) => width !== first?.width || height !== first.height);
-  return first && other ? [texts.said.sizes(other, first)] : [];
-}
-
-/** The folder that was opened is what a person calls it. */
-function folderOf(path: string): string | null {
-  const parts = path.split('/').filter((part) => part !== '');
-  return parts.length > 1 ? parts[0]! : null;
-}
-
-function studyName(frame: FrameEntry): string {
-  const name = frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '');
-  // A number is no name of a study.
-  return /^\d*$/.test(name) ? texts.said.study : name;
 }

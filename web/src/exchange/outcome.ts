@@ -1,0 +1,38 @@
+import { sentenceOf } from '../jobs/services';
+import { texts } from '../texts/texts';
+import { Aborted } from '../workers/bridge';
+import type { Incoming } from './incoming';
+
+/** What came of files that were opened together, in words. */
+export interface Outcome {
+  readonly opened: string[];
+  readonly failed: string[];
+  /** What was left out, or is news: nobody asked for it. */
+  readonly leftOut: string[];
+}
+
+export function noOutcome(): Outcome {
+  return { opened: [], failed: [], leftOut: [] };
+}
+
+/** Opens a file by `open`, which says what it was; what is amiss with it is said in place of that. */
+export async function attempt({ name }: Incoming, open: () => Promise<string>, { opened, failed }: Pick<Outcome, 'opened' | 'failed'>): Promise<void> {
+  try {
+    opened.push(await open());
+  } catch (error) {
+    if (!(error instanceof Aborted)) failed.push(troubleOf(name, error));
+  }
+}
+
+/** What is amiss with a file, by its name, with which some sentences begin already. */
+export function troubleOf(name: string, error: unknown): string {
+  const sentence = sentenceOf(error);
+  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
+}
+
+/** A few names, and how many more there are. */
+export function fewNames(files: readonly Incoming[]): string {
+  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const rest = files.length - names.length;
+  return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
+}
