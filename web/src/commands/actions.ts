@@ -14,9 +14,11 @@ import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
 import type { TracingTools } from '../tracing/tracing_tools';
 import type { Videos } from '../exchange/videos';
 import { Aborted } from '../workers/bridge';
+import { ended } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import { TracingActions } from './tracing_actions';
-import { download, pickFiles } from '../exchange/browser_files';
+import { download, droppedFiles, pickFiles } from '../exchange/browser_files';
+import { troubleOf } from '../exchange/outcome';
 import { fileStem } from '../terms/file_name';
 import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';
@@ -288,6 +290,14 @@ export class Actions {
 
   async openFolder(): Promise<void> {
     await this.openLocated(await pickFiles('folder'));
+  }
+
+  /** Opens what was dropped; what the browser does not give of it is said last. */
+  async openDropped(transfer: DataTransfer): Promise<void> {
+    const troubles: string[] = [];
+    const files = await droppedFiles(transfer, (path, error) => troubles.push(troubleOf(path, error)));
+    await this.openLocated(files);
+    if (troubles.length > 0) this.#store.say('error', troubles.map(ended).join(' '));
   }
 
   /** Opens files, whatever they are. */

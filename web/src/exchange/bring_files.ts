@@ -2,11 +2,16 @@ import type { Asset } from '../document/assets';
 import type { Doc, FrameEntry } from '../document/types';
 import type { Services } from '../jobs/services';
 import { bytesOf } from './incoming';
+import { troubleOf } from './outcome';
 import { COMPONENT_NAMES } from '../terms/component';
+import { ended } from '../texts/sentences';
 import { texts } from '../texts/texts';
 
-/** Tells the studio of the frames of a document, and brings its models; returns the names of files that are not at hand. */
-export async function bringFiles(services: Services, doc: Doc): Promise<string[]> {
+/**
+ * Tells the studio of the frames of a document, and brings its models; returns the names of files that are not at hand. What is amiss with
+ * one that is goes to `troubles`.
+ */
+export async function bringFiles(services: Services, doc: Doc, troubles: string[]): Promise<string[]> {
   const missing: string[] = [];
   for (const { id, name, source, indexInSource } of doc.frames) {
     const file = name.replace(/ #\d+$/, '');
@@ -18,7 +23,7 @@ export async function bringFiles(services: Services, doc: Doc): Promise<string[]
   for (const component of COMPONENT_NAMES) {
     const { model, libraryFile } = doc.components[component];
     const asset = model && services.assets.get(model.sha256);
-    if (asset) await holdModel(services, asset);
+    if (asset) await holdModel(services, asset).catch((error: unknown) => void troubles.push(ended(troubleOf(asset.name, error))));
     else if (model) missing.push(model.name);
     if (libraryFile && !services.assets.get(libraryFile.sha256)) missing.push(libraryFile.name);
   }

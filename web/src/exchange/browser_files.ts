@@ -24,12 +24,15 @@ export function download(parts: BlobPart[], name: string, type: string): void {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** The files of a drop, those in dropped folders too. */
-export async function droppedFiles(transfer: DataTransfer): Promise<Located[]> {
+/** Is told of what the browser does not give: a right is missing, a disk or a file of the cloud is away. */
+export type TellTrouble = (path: string, error: unknown) => void;
+
+/** The files of a drop, those in dropped folders too. What cannot be had leaves the others. */
+export async function droppedFiles(transfer: DataTransfer, tell: TellTrouble): Promise<Located[]> {
   // Entries must be taken before anything is awaited: the transfer is emptied when the event ends.
   const entries = Array.from(transfer.items).map((item) => item.webkitGetAsEntry());
   if (entries.every((entry) => entry === null)) return Array.from(transfer.files, located);
-  const files = await Promise.all(entries.filter((entry) => entry !== null).map(filesOf));
+  const files = await Promise.all(entries.filter((entry) => entry !== null).map((entry) => filesOf(entry, tell)));
   return files.flat();
 }
 
@@ -37,17 +40,27 @@ function located(file: File): Located {
   return { file, path: file.webkitRelativePath || file.name };
 }
 
-async function filesOf(entry: FileSystemEntry): Promise<Located[]> {
-  if (entry.isFile) {
-    const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
-    return [{ file, path: entry.fullPath }];
-  }
-  const reader = (entry as FileSystemDirectoryEntry).createReader();
+async function filesOf(entry: FileSystemEntry, tell: TellTrouble): Promise<Located[]> {
   const files: Located[] = [];
+  try {
+    if (entry.isFile) files.push({ file: await fileOf(entry as FileSystemFileEntry), path: entry.fullPath });
+    else for await (const inner of entriesOf(entry as FileSystemDirectoryEntry)) files.push(...(await filesOf(inner, tell)));
+  } catch (error) {
+    tell(entry.fullPath, error);
+  }
+  return files;
+}
+
+function fileOf(entry: FileSystemFileEntry): Promise<File> {
+  return new Promise((resolve, reject) => entry.file(resolve, reject));
+}
+
+async function* entriesOf(folder: FileSystemDirectoryEntry): AsyncGenerator<FileSystemEntry> {
+  const reader = folder.createReader();
   for (;;) {
     // A reader gives a hundred entries at most each time.
     const entries = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
-    if (entries.length === 0) return files;
-    for (const inner of entries) files.push(...(await filesOf(inner)));
+    if (entries.length === 0) return;
+    yield* entries;
   }
 }

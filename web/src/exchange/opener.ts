@@ -14,7 +14,7 @@ import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { openFrames, sizesAmong } from './frames_opener';
 import { atHand, componentFor } from './guess';
-import { attempt, fewNames, noOutcome, type Outcome } from './outcome';
+import { attempt, fewNames, noOutcome, type Outcome, troubleOf } from './outcome';
 import { rowsOfFrames } from './pose_rows';
 import { type Recognised, recognise } from './recognise';
 import { offerStatedOrder } from './stated_order';
@@ -37,26 +37,26 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   const { store } = services;
   const before = cameraKey(services);
   await saidWhereLarge(store, files);
-  const all = await lookedAt(services.store, files, (file) => recognise(services, file));
-  all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const outcome = noOutcome();
   const { opened, failed, leftOut } = outcome;
+  const all = await recognised(services, files, failed);
   const study = await studyAmong(all, failed);
-  const recognised = study ? asTheStudyMeans(study, all, leftOut) : all;
-  const outlines = await outlineFiles(services, recognised);
-  const others = recognised.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
+  const meant = study ? asTheStudyMeans(study, all, leftOut) : all;
+  const outlines = await outlineFiles(services, meant);
+  const others = meant.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
   const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
   const aside = isWhole(study, others) && (await areOthers(services, frames)) ? stepAside(services) : null;
-  for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
-    const sentence = await mismatchOf(services, file);
+  for (const file of meant.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
+    // One that cannot be read is told when it is opened.
+    const sentence = await mismatchOf(services, file).catch(() => null);
     if (sentence) failed.push(sentence);
   }
   // Of a whole folder what is not recognised is told in one sentence.
-  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
+  const strangers = meant.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
   for (const file of single) await attempt(file, () => openOne(services, file, failed), outcome);
   if (frames.length > 0) await openFrames(services, frames, outcome);
-  const poses = sortedPoses(services.store.state, recognised.filter((file) => file.kind === 'poses'));
+  const poses = sortedPoses(services.store.state, meant.filter((file) => file.kind === 'poses'));
   for (const file of poses.clear) await attempt(file, () => openPoses(services, file), outcome);
   if (study) opened.push(await openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
@@ -70,6 +70,18 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** The files by what they are, in the order of opening; those that cannot be read are told. */
+async function recognised(services: Services, files: readonly Incoming[], failed: string[]): Promise<readonly Recognised[]> {
+  const all = await lookedAt(services.store, files, (file) =>
+    recognise(services, file).catch((error: unknown) => {
+      failed.push(troubleOf(file.name, error));
+      return null;
+    }),
+  );
+  const read = all.filter((file) => file !== null);
+  return read.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
 }
 
 /** All that a film needs comes with it: poses, models and calibration of another one would be wrong beside it. */

@@ -14,7 +14,7 @@ import type { Services } from '../jobs/services';
 export async function openSession(services: Services, file: Incoming, remarks: string[]): Promise<string> {
   const session = readSession(await textOf(file));
   await takeFiles(services, session, remarks);
-  const missing = await bringFiles(services, session.doc);
+  const missing = await bringFiles(services, session.doc, remarks);
   const { store } = services;
   store.perform({ label: texts.digests.openLabel, apply: () => session.doc });
   store.markSaved(store.doc);

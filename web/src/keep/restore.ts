@@ -93,8 +93,10 @@ function showView({ store }: Services, view: KeptWork['view']): void {
 
 /** Files are looked at when they are read; models are at once, frames when they are shown. */
 async function bringKeptFiles(services: Services, doc: Doc): Promise<void> {
-  const missing = await counted(bringFiles(services, doc));
-  if (missing.length > 0) services.store.say('error', texts.keep.missing(texts.listed(missing), missing.length));
+  const troubles: string[] = [];
+  const missing = await counted(bringFiles(services, doc, troubles));
+  if (missing.length > 0) troubles.push(texts.keep.missing(texts.listed(missing), missing.length));
+  if (troubles.length > 0) services.store.say('error', troubles.join(' '));
 }
 
 /** As work that is under way. */

@@ -59,4 +59,16 @@ describe('work that comes back', () => {
     expect(store.doc.frames).toEqual([]);
     expect(store.ui.notice?.text).toMatch(/knee .* the browser cleared its storage/);
   });
+
+  it('is back though a copy of a file of it is damaged, and that is said alone', async () => {
+    const { store, services, keeper } = bench(Infinity);
+    const model = { name: 'femur.stl', sha256: 'other' };
+    const assets = { get: () => ({ ...model, blob: new Blob() }), keep: () => undefined, check: async () => false };
+    const { components } = work.document as unknown as Doc;
+    const document = { ...work.document, components: { ...components, femur: { ...components.femur, model } } };
+    const studio = { ...services.studio, meshOf: () => null };
+    await restoreWork({ ...services, assets, studio } as unknown as Services, keeper, { ...work, document });
+    expect(store.doc.components.femur.model?.name).toBe('femur.stl');
+    expect(store.ui.log.map(({ text }) => text)).toEqual([expect.stringMatching(/^knee is back/), expect.stringMatching(/^femur\.stl: its copy in this browser is damaged/)]);
+  });
 });

@@ -1,6 +1,5 @@
 import { useEffect, useState } from 'preact/hooks';
 import { useApp } from '../../commands/app';
-import { droppedFiles } from '../../exchange/browser_files';
 
 /** The whole page is a drop target. Returns whether something is held over it. */
 export function useDropTarget(): boolean {
@@ -17,7 +16,7 @@ export function useDropTarget(): boolean {
     const onDrop = (event: DragEvent) => {
       event.preventDefault();
       show(-depth);
-      if (event.dataTransfer) void droppedFiles(event.dataTransfer).then((files) => actions.openLocated(files));
+      if (event.dataTransfer) void actions.openDropped(event.dataTransfer);
     };
     const listeners = { dragenter: onEnter, dragleave: onLeave, dragover: onOver, drop: onDrop } as const;
     const entries = Object.entries(listeners) as [string, EventListener][];
