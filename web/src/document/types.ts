@@ -110,7 +110,14 @@ export interface FileReference {
 
 /** A model, and the file that it was written again from, in millimetres. */
 export interface ModelReference extends FileReference {
-  readonly writtenFrom?: { readonly name: string; readonly unit: LengthUnit };
+  readonly writtenFrom?: WrittenFrom;
+}
+
+export interface WrittenFrom {
+  readonly name: string;
+  readonly unit: LengthUnit;
+  /** Of that file, by which it is known when it comes again; sessions from before have none. */
+  readonly sha256?: string;
 }
 
 /** Which views a library holds. */

@@ -21,7 +21,7 @@ export async function takeInMillimetres(services: Services, component: Component
   // Another may have been opened meanwhile.
   if (store.doc.components[component].model?.sha256 !== model.sha256) return;
   const unit = unitOf(unitMm);
-  store.perform(setModel(component, { name, sha256: asset.sha256, ...(unit && { writtenFrom: { name: model.name, unit } }) }));
+  store.perform(setModel(component, { name, sha256: asset.sha256, ...(unit && { writtenFrom: { name: model.name, unit, sha256: model.sha256 } }) }));
   store.say('info', texts.models.taken(model.name, name, unitMm));
 }
 

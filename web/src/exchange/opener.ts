@@ -251,7 +251,8 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null, shaped);
   const remarks = services.studio.remarksOn(asset.sha256);
   const before = store.doc;
-  const known = before.components[component].model?.sha256 === asset.sha256;
+  const { model } = before.components[component];
+  const known = model?.sha256 === asset.sha256 || model?.writtenFrom?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
   const named = texts.said.asModel(file.name, texts.component[component]) + droppedSince(before, store.doc);
   // What a person or a name says is done, and what the shape says is said.

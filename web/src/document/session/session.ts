@@ -270,11 +270,13 @@ const readFrame = object<FrameEntry>({
 
 const readReference = object<FileReference>({ name: text, sha256: text });
 
-const readWritten = object({ writtenFrom: optional(object({ name: text, unit: oneOf(...LENGTH_UNITS) })) });
+const readWritten = object({ writtenFrom: optional(object({ name: text, unit: oneOf(...LENGTH_UNITS), sha256: optional(text) })) });
 
 const readModel: Reader<ModelReference> = (value, path) => {
   const { writtenFrom } = readWritten(value, path);
-  return { ...readReference(value, path), ...(writtenFrom && { writtenFrom }) };
+  if (!writtenFrom) return readReference(value, path);
+  const { sha256, ...named } = writtenFrom;
+  return { ...readReference(value, path), writtenFrom: { ...named, ...(sha256 !== null && { sha256 }) } };
 };
 
 const readAllDirections = object<AllDirections>({ views: oneOf('all directions'), distance: nullable(number) });
