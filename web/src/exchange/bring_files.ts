@@ -46,20 +46,21 @@ export interface Decoded {
   readonly print: number;
 }
 
-/** Decodes every frame of a file into the studio. Frames that were there already are not held twice. */
+/** Decodes every frame of a file into the studio, by the name that it came with. Frames that were there already are not held twice. */
 export async function decodeFrames(
   { decoder, studio }: Services,
   asset: Asset,
+  fileName: string,
   signal: AbortSignal,
   report: (done: number, total: number) => void,
 ): Promise<readonly Decoded[]> {
   const entries: Decoded[] = [];
-  await decoder.call('frames', { blob: asset.blob, name: asset.name }, {
+  await decoder.call('frames', { blob: asset.blob, name: fileName }, {
     signal,
     onProgress: ({ index, total, frame, print }) => {
       const id = `${asset.sha256.slice(0, 16)}:${index}`;
       studio.addFrame(id, { sha256: asset.sha256, index }, frame);
-      const name = total === 1 ? asset.name : `${asset.name} #${index + 1}`;
+      const name = total === 1 ? fileName : `${fileName} #${index + 1}`;
       const { width, height } = frame;
       entries.push({ entry: { id, name, source: asset.sha256, indexInSource: index, width, height }, print });
       report(index + 1, total);

@@ -2,6 +2,7 @@ import { distinct } from '../document/same_frames';
 import * as commands from '../document/commands';
 import type { Doc, FrameEntry } from '../document/types';
 import { asJob, type Services } from '../jobs/services';
+import { later } from '../texts/later';
 import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import { type Decoded, decodeFrames } from './bring_files';
@@ -11,7 +12,7 @@ import { attempt, type Outcome } from './outcome';
 import { TOLD } from './reading';
 
 /** Decodes files of frames, one after the other, and adds what they hold behind the frames that are here. */
-export async function openFrames(services: Services, files: readonly Incoming[], { opened, failed, leftOut: news }: Outcome): Promise<void> {
+export async function openFrames(services: Services, files: readonly Incoming[], { opened, failed, news }: Outcome): Promise<void> {
   const abort = new AbortController();
   const decoded: Decoded[] = [];
   const job = {
@@ -31,7 +32,7 @@ export async function openFrames(services: Services, files: readonly Incoming[],
         file,
         async () => {
           const asset = await services.assets.add(file.name, file.blob);
-          decoded.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
+          decoded.push(...(await decodeFrames(services, asset, file.name, abort.signal, reportFrames)));
           return '';
         },
         { opened: [], failed },
@@ -44,9 +45,10 @@ export async function openFrames(services: Services, files: readonly Incoming[],
   const isMended = entries.length > 0 && entries.every(({ name }) => services.store.doc.unread.includes(name));
   const unread = unreadAfter(services.store.doc, lost, entries);
   if (entries.length === 0) return keepUnread(services, unread);
-  addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
+  const added = addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
+  if (added.length > 0) opened.push(texts.said.theFrames(added.length, added[0]!.name));
+  if (added.length < entries.length) news.push(later.opening.knownFrames(entries.length - added.length));
   news.push(...repeatsAmong(decoded), ...(await gapsAmong(services, files)));
-  opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
 /** Files of frames that could not be read, until they are opened mended: files of poses may have rows for them. */
@@ -59,9 +61,10 @@ function keepUnread({ store }: Services, unread: readonly string[]): void {
   if (store.doc.frames.length > 0) store.amend((doc) => ({ ...doc, unread }));
 }
 
-/** `isMended`: they could not be read when those beside them were opened, and have their places among them. */
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], unread: readonly string[], isMended: boolean, path = ''): void {
-  const first = store.doc.frames.length;
+/** Returns those that were not here before. `isMended`: they could not be read when those beside them were opened, and have their places among them. */
+function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], unread: readonly string[], isMended: boolean, path = ''): readonly FrameEntry[] {
+  const known = new Set(store.doc.frames.map(({ id }) => id));
+  const first = known.size;
   const isByName = store.doc.frames.every(({ name }, at, all) => at === 0 || byName(all[at - 1]!.name, name) < 0);
   store.perform(commands.addFrames(entries, unread, isMended && isByName ? byName : undefined));
   // Frames that were here before may be of another film.
@@ -69,6 +72,7 @@ function addToDocument({ store, studio }: Services, entries: readonly FrameEntry
   if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
   if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: folderOf(path) ?? studyName(entries[0]!) }));
   if (store.doc.frames.length > first) store.goTo(isMended ? store.doc.frames.findIndex(({ id }) => id === entries[0]!.id) : first);
+  return entries.filter(({ id }) => !known.has(id));
 }
 
 /** Pairs of frames that are named. */

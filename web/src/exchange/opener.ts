@@ -187,9 +187,9 @@ const ORDER: readonly FileKind[] = [
 const SHOWN = 3;
 
 /** What was left out of a folder is news, no error: nobody asked for it. */
-function tell({ store }: Services, { opened, failed, leftOut }: Outcome, offer?: Offer): void {
-  const news = [...(opened.length > 0 ? [texts.said.opened(opened.join(', '))] : []), ...leftOut];
-  if (news.length > 0) store.say(opened.length > 0 ? 'info' : 'error', news.join(' '), offer);
+function tell({ store }: Services, { opened, failed, news, leftOut }: Outcome, offer?: Offer): void {
+  const came = [...(opened.length > 0 ? [texts.said.opened(opened.join(', '))] : []), ...news];
+  if (came.length + leftOut.length > 0) store.say(came.length > 0 ? 'info' : 'error', [...came, ...leftOut].join(' '), offer);
   if (failed.length === 0) return;
   for (const sentence of failed.slice(SHOWN)) store.say('error', sentence);
   const rest = failed.length - SHOWN;

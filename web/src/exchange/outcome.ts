@@ -7,12 +7,13 @@ import type { Incoming } from './incoming';
 export interface Outcome {
   readonly opened: string[];
   readonly failed: string[];
-  /** What was left out, or is news: nobody asked for it. */
+  /** What there is to know of what came. */
+  readonly news: string[];
   readonly leftOut: string[];
 }
 
 export function noOutcome(): Outcome {
-  return { opened: [], failed: [], leftOut: [] };
+  return { opened: [], failed: [], news: [], leftOut: [] };
 }
 
 /** Opens a file by `open`, which says what it was; what is amiss with it is said in place of that. */

@@ -5,6 +5,7 @@ export const opening = {
   backTo: (name: string) => `Back to ${name || 'what was open'}`,
   /** Without its full stop. */
   dropped: (cells: number) => `${cells} followed ${cells === 1 ? 'pose is' : 'poses are'} dropped, found with the one before: Follow again, or undo`,
+  knownFrames: (count: number) => `${count === 1 ? 'One frame is' : `${count} frames are`} of this work already, by ${count === 1 ? 'its' : 'their'} content.`,
   andMoreFiles: (count: number) => `${count} more are in the list of messages.`,
   otherOrder: (byName: string, byPlace: string) =>
     `Frames stand by the names of their files, which state another order (Instance Number): ${byName} is first by name, ${byPlace} by number. Which is that of time?`,

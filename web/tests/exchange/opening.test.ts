@@ -31,3 +31,23 @@ describe('a model that was written again in millimetres', () => {
     expect(doc.components.femur.model).toEqual(store.doc.components.femur.model);
   });
 });
+
+describe('files of frames that are alike to the last bit', () => {
+  it('keep their own names', async () => {
+    const { frames, open } = pageOfFiles();
+    await open(at('/f1.png', 'same'), at('/f2.png', 'same'), at('/f3.png', 'other'));
+    expect(frames()).toEqual(['f1.png', 'f2.png', 'f3.png']);
+  });
+
+  it('are said to be of the work already where nothing comes of them, and not to be opened', async () => {
+    const { store, frames, said, open } = pageOfFiles();
+    await open(at('/f1.png', 'same'), at('/f2.png', 'other'));
+    expect(said()).toBe('Opened 2 frames.');
+    await open(at('/again.png', 'same'));
+    expect(frames()).toEqual(['f1.png', 'f2.png']);
+    expect(said()).toBe('Opened 2 frames. One frame is of this work already, by its content.');
+    expect(store.ui.notice?.kind).toBe('info');
+    await open(at('/f1.png', 'same'), at('/f2.png', 'other'), at('/f3.png', 'new'));
+    expect(said()).toMatch(/Opened the frame f3\.png\. 2 frames are of this work already, by their content\.$/);
+  });
+});
