@@ -38,7 +38,7 @@ export async function openDemonstration(services: Services): Promise<void> {
     incoming(manifest.models.femur, 'femur'),
     incoming(manifest.models.tibia, 'tibia'),
   ]);
-  await openFiles(services, files);
+  if (!(await openFiles(services, files))) return;
   store.perform(commands.rename(manifest.name));
   store.perform(commands.setSide(manifest.side));
   store.goTo(0);

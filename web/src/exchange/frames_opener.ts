@@ -8,11 +8,12 @@ import { texts } from '../texts/texts';
 import { type Decoded, decodeFrames } from './bring_files';
 import type { Incoming } from './incoming';
 import { byName } from './name_order';
-import { attempt, type Outcome } from './outcome';
+import { attempt, fewNames, type Outcome } from './outcome';
 import { TOLD } from './reading';
+import type { WorkOnView } from './work_on_view';
 
 /** Decodes files of frames, one after the other, and adds what they hold behind the frames that are here. */
-export async function openFrames(services: Services, files: readonly Incoming[], { opened, failed, news }: Outcome): Promise<void> {
+export async function openFrames(services: Services, work: WorkOnView, files: readonly Incoming[], { opened, failed, news }: Outcome): Promise<void> {
   const abort = new AbortController();
   const decoded: Decoded[] = [];
   const job = {
@@ -25,7 +26,7 @@ export async function openFrames(services: Services, files: readonly Incoming[],
   await asJob(services.store, job, async (report) => {
     for (const [index, file] of files.entries()) {
       // What was decoded until then stays.
-      if (abort.signal.aborted) break;
+      if (abort.signal.aborted || !work.isHere()) break;
       const reportFrames = (done: number, total: number) => files.length === 1 && report(done, total);
       const told = failed.length;
       await attempt(
@@ -41,11 +42,13 @@ export async function openFrames(services: Services, files: readonly Incoming[],
       if (files.length > 1 && ((index + 1) % TOLD === 0 || files.length < 4 * TOLD)) report(index + 1, files.length);
     }
   });
+  if (!work.isHere()) return void failed.push(later.opening.tooLate(fewNames(files)));
   const entries = decoded.map(({ entry }) => entry);
   const isMended = entries.length > 0 && entries.every(({ name }) => services.store.doc.unread.includes(name));
   const unread = unreadAfter(services.store.doc, lost, entries);
   if (entries.length === 0) return keepUnread(services, unread);
   const added = addToDocument(services, distinct(entries), unread, isMended, files[0]?.path);
+  work.follow();
   if (added.length > 0) opened.push(texts.said.theFrames(added.length, added[0]!.name));
   if (added.length < entries.length) news.push(later.opening.knownFrames(entries.length - added.length));
   news.push(...repeatsAmong(decoded), ...(await gapsAmong(services, files)));
@@ -62,7 +65,13 @@ function keepUnread({ store }: Services, unread: readonly string[]): void {
 }
 
 /** Returns those that were not here before. `isMended`: they could not be read when those beside them were opened, and have their places among them. */
-function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[], unread: readonly string[], isMended: boolean, path = ''): readonly FrameEntry[] {
+function addToDocument(
+  { store, studio }: Services,
+  entries: readonly FrameEntry[],
+  unread: readonly string[],
+  isMended: boolean,
+  path = '',
+): readonly FrameEntry[] {
   const known = new Set(store.doc.frames.map(({ id }) => id));
   const first = known.size;
   const isByName = store.doc.frames.every(({ name }, at, all) => at === 0 || byName(all[at - 1]!.name, name) < 0);

@@ -1,4 +1,5 @@
 import { holdModel } from './bring_files';
+import { inTurn } from './in_turn';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
 import { ended } from '../texts/sentences';
@@ -28,12 +29,17 @@ import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import type { Services } from '../jobs/services';
 import { mismatchOf, openSession } from './session_opener';
+import type { WorkOnView } from './work_on_view';
 
 /**
- * Opens whatever it is given: each file is recognised by its content. A file that cannot be read is named and the
- * others are opened all the same.
+ * Opens whatever it is given, once what came before is opened: each file is recognised by its content. A file that cannot be read is named and
+ * the others are opened all the same. True where the work that they are for is still on view.
  */
-export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
+export function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<boolean> {
+  return inTurn(services.store, (work) => openAll(services, work, files, beginVideo));
+}
+
+async function openAll(services: Services, work: WorkOnView, files: readonly Incoming[], beginVideo: BeginVideo): Promise<void> {
   const { store } = services;
   const before = cameraKey(services);
   await saidWhereLarge(store, files);
@@ -45,31 +51,42 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   const outlines = await outlineFiles(services, meant);
   const others = meant.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
   const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
-  const aside = isWhole(study, others) && (await areOthers(services, frames)) ? stepAside(services) : null;
-  for (const file of meant.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
+  const isOther = isWhole(study, others) && (await areOthers(services, frames));
+  if (!work.isHere()) return store.say('error', later.opening.tooLate(fewNames(files)));
+  const aside = isOther ? stepAside(services) : null;
+  if (aside) work.follow();
+  await tellMismatches(services, meant, failed);
+  // Of a whole folder what is not recognised is told in one sentence.
+  const strangers = meant.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
+  const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
+  for (const file of single) await attempt(file, () => openOne(services, work, file, failed), outcome);
+  if (frames.length > 0) await openFrames(services, work, frames, outcome);
+  const poses = sortedPoses(store.state, meant.filter((file) => file.kind === 'poses'));
+  for (const file of poses.clear) await attempt(file, () => openPoses(services, work, file), outcome);
+  if (study && work.isHere()) opened.push(await openStudy(services, study));
+  if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
+  await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
+  const isHere = work.isHere();
+  if (isHere) {
+    failed.push(...sizesAmong(store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
+    store.show({ component: atHand(store.doc, store.ui.component) });
+  }
+  // It stands in the line with what is shown last.
+  if (aside) (failed.length > 0 ? failed : leftOut).unshift(aside.sentence);
+  tell(services, outcome, aside?.offer);
+  if (!isHere) return;
+  offerStated(services, frames.length > 0);
+  offerStatedOrder(services, frames.length > 0);
+  askWhichPoses(services, work, poses);
+  if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+async function tellMismatches(services: Services, files: readonly Recognised[], failed: string[]): Promise<void> {
+  for (const file of files.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
     // One that cannot be read is told when it is opened.
     const sentence = await mismatchOf(services, file).catch(() => null);
     if (sentence) failed.push(sentence);
   }
-  // Of a whole folder what is not recognised is told in one sentence.
-  const strangers = meant.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
-  const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
-  for (const file of single) await attempt(file, () => openOne(services, file, failed), outcome);
-  if (frames.length > 0) await openFrames(services, frames, outcome);
-  const poses = sortedPoses(services.store.state, meant.filter((file) => file.kind === 'poses'));
-  for (const file of poses.clear) await attempt(file, () => openPoses(services, file), outcome);
-  if (study) opened.push(await openStudy(services, study));
-  if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
-  await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
-  failed.push(...sizesAmong(services.store.doc.frames, frames.length), ...(await newCameraDoubts(services, before)));
-  store.show({ component: atHand(store.doc, store.ui.component) });
-  // It stands in the line with what is shown last.
-  if (aside) (failed.length > 0 ? failed : leftOut).unshift(aside.sentence);
-  tell(services, outcome, aside?.offer);
-  offerStated(services, frames.length > 0);
-  offerStatedOrder(services, frames.length > 0);
-  askWhichPoses(services, poses);
-  if (outlines.length > 0) await proposeOutlines(services, outlines, files);
 }
 
 /** The files by what they are, in the order of opening; those that cannot be read are told. */
@@ -91,9 +108,9 @@ function isWhole(study: StudyFile | null, files: readonly Recognised[]): boolean
 }
 
 /** Of several files of poses of a component nothing is taken before a person says which. */
-function askWhichPoses(services: Services, poses: SortedPoses<Recognised>): void {
+function askWhichPoses(services: Services, work: WorkOnView, poses: SortedPoses<Recognised>): void {
   const { store } = services;
-  const sets = setsToAsk(poses, (files) => void openChosenPoses(services, files));
+  const sets = setsToAsk(poses, (files) => void openChosenPoses(services, work, files));
   const component = COMPONENT_NAMES.find((name) => poses.contested[name].length > 0);
   if (!sets || !component) return;
   const choose = () => store.show({ popover: 'sets' });
@@ -102,9 +119,9 @@ function askWhichPoses(services: Services, poses: SortedPoses<Recognised>): void
   choose();
 }
 
-async function openChosenPoses(services: Services, files: readonly Recognised[]): Promise<void> {
+async function openChosenPoses(services: Services, work: WorkOnView, files: readonly Recognised[]): Promise<void> {
   const outcome = noOutcome();
-  for (const file of files) await attempt(file, () => openPoses(services, file), outcome);
+  for (const file of files) await attempt(file, () => openPoses(services, work, file), outcome);
   tell(services, outcome);
 }
 
@@ -172,10 +189,12 @@ async function proposeOutlines(services: Services, outlines: readonly OutlineFil
 }
 
 /** Opens images as frames, whatever they look like. */
-async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
-  const outcome = noOutcome();
-  await openFrames(services, files, outcome);
-  tell(services, outcome);
+function openAsFrames(services: Services, files: readonly Incoming[]): Promise<boolean> {
+  return inTurn(services.store, async (work) => {
+    const outcome = noOutcome();
+    await openFrames(services, work, files, outcome);
+    tell(services, outcome);
+  });
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
@@ -199,18 +218,18 @@ function tell({ store }: Services, { opened, failed, news, leftOut }: Outcome, o
 }
 
 /** Says what was opened; what is amiss all the same goes to `remarks`. */
-async function openOne(services: Services, file: Recognised, remarks: string[]): Promise<string> {
+async function openOne(services: Services, work: WorkOnView, file: Recognised, remarks: string[]): Promise<string> {
   switch (file.kind) {
     case 'calibration':
-      return openCalibration(services, file);
+      return openCalibration(services, work, file);
     case 'model':
-      return openModel(services, file);
+      return openModel(services, work, file);
     case 'library':
-      return openLibrary(services, file);
+      return openLibrary(services, work, file);
     case 'session':
-      return openSession(services, file, remarks);
+      return openSessionAs(services, work, file, remarks);
     case 'distortion':
-      return openDistortion(services, file);
+      return openDistortion(services, work, file);
     default:
       if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
       throw new Error(ARCHIVE.test(file.name) ? later.opening.archive : texts.said.notRecognised);
@@ -222,9 +241,22 @@ const ARCHIVE = /\.(zip|rar|7z|tar|t?gz)$/i;
 
 // --- Each kind ----------------------------------------------------------------------------------------------------
 
-async function openCalibration({ store, studio }: Services, file: Incoming): Promise<string> {
+/** Throws where other work came on view while a file was read. */
+function mustBeHere(work: WorkOnView, { name }: Incoming): void {
+  if (!work.isHere()) throw new Error(later.opening.tooLate(name));
+}
+
+/** It brings a work of its own. */
+async function openSessionAs(services: Services, work: WorkOnView, file: Incoming, remarks: string[]): Promise<string> {
+  const said = await openSession(services, file, remarks);
+  work.follow();
+  return said;
+}
+
+async function openCalibration({ store, studio }: Services, work: WorkOnView, file: Incoming): Promise<string> {
   const { name } = file;
   const text = await textOf(file);
+  mustBeHere(work, file);
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);
   const before = store.doc;
@@ -238,15 +270,18 @@ function droppedSince(before: Doc, after: Doc): string {
   return dropped === 0 ? '' : ` (${later.opening.dropped(dropped)})`;
 }
 
-async function openDistortion(services: Services, file: Incoming): Promise<string> {
-  takeDistortion(services, readDistortionFile(await textOf(file)));
+async function openDistortion(services: Services, work: WorkOnView, file: Incoming): Promise<string> {
+  const distortion = readDistortionFile(await textOf(file));
+  mustBeHere(work, file);
+  takeDistortion(services, distortion);
   return texts.calibrate.opened(file.name);
 }
 
-async function openModel(services: Services, file: Incoming): Promise<string> {
+async function openModel(services: Services, work: WorkOnView, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.blob);
   await holdModel(services, asset);
+  mustBeHere(work, file);
   const shaped = services.studio.shapeOf(asset.sha256);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null, shaped);
   const remarks = services.studio.remarksOn(asset.sha256);
@@ -272,16 +307,19 @@ async function openStudy(services: Services, { name, study }: StudyFile): Promis
   return texts.study.opened(study.name || name);
 }
 
-async function openLibrary({ store, assets, checkLibrary }: Services, file: Incoming): Promise<string> {
+async function openLibrary({ store, assets, checkLibrary }: Services, work: WorkOnView, file: Incoming): Promise<string> {
   await checkLibrary(await bytesOf(file.blob));
   const asset = await assets.add(file.name, file.blob);
+  mustBeHere(work, file);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
   return texts.said.asLibrary(file.name, texts.component[component]);
 }
 
-async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
-  const poses = studio.readPoses(await textOf(file));
+async function openPoses({ store, studio }: Services, work: WorkOnView, file: Incoming): Promise<string> {
+  const text = await textOf(file);
+  mustBeHere(work, file);
+  const poses = studio.readPoses(text);
   const { frames, unread } = store.doc;
   if (frames.length === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);

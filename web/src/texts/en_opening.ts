@@ -5,6 +5,7 @@ export const opening = {
   backTo: (name: string) => `Back to ${name || 'what was open'}`,
   /** Without its full stop. */
   dropped: (cells: number) => `${cells} followed ${cells === 1 ? 'pose is' : 'poses are'} dropped, found with the one before: Follow again, or undo`,
+  tooLate: (names: string) => `${names}: other work came on view before this was read, and it was not opened. Go back to the work that it is for, and open it there.`,
   knownFrames: (count: number) => `${count === 1 ? 'One frame is' : `${count} frames are`} of this work already, by ${count === 1 ? 'its' : 'their'} content.`,
   andMoreFiles: (count: number) => `${count} more are in the list of messages.`,
   otherOrder: (byName: string, byPlace: string) =>
