@@ -15,12 +15,14 @@ export interface Study {
   readonly film: StatedFilm | null;
   /** The folder of the frames, as it is written; missing where none is named. */
   readonly frames?: string;
+  /** Likewise. */
+  readonly calibration?: string;
   readonly parts: readonly StudyPart[];
 }
 
 export interface StudyPart {
   readonly component: ComponentName;
-  /** Names of files, without their folders. */
+  /** Paths of files, as they are written. */
   readonly model: string | null;
   /** Of the model's file; missing where that is in millimetres. */
   readonly unit?: LengthUnit | null;
@@ -28,11 +30,6 @@ export interface StudyPart {
   readonly axes: Axes | null;
   readonly nominal: readonly [number, number] | null;
   readonly distance: number | null;
-}
-
-/** The component that the study means by a file; undefined where it names no such file. */
-export function componentIn({ parts }: Study, kind: 'model' | 'reference', name: string): ComponentName | undefined {
-  return parts.find((part) => part[kind] === name)?.component;
 }
 
 /** Everything that the study tells of the document, one step back. */

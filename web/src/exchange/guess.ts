@@ -12,11 +12,16 @@ export function componentFor(
   isTaken: (component: ComponentName) => boolean,
   shaped: ComponentName | null = null,
 ): ComponentName {
-  const said = file.component ?? namedIn(file.name) ?? shaped;
+  const said = componentSaid(file, shaped);
   if (said) return said;
   const selected = state.ui.component;
   const other = otherThan(selected);
   return isTaken(selected) && !isTaken(other) ? other : selected;
+}
+
+/** By a person, a name or the shape; null where none of these tells. */
+export function componentSaid(file: { readonly name: string; readonly component?: ComponentName | undefined }, shaped: ComponentName | null): ComponentName | null {
+  return file.component ?? namedIn(file.name) ?? shaped;
 }
 
 /** The component to work on: the selected one, unless nothing is known of its shape and of the other one's it is. */

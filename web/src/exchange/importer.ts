@@ -8,6 +8,7 @@ import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
+import { pathOf } from './paths';
 import { lookedAt } from './reading';
 import type { Store } from '../document/store';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
@@ -162,10 +163,6 @@ function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
 function closed(numbers: Float64Array): Outline {
   const points = Array.from({ length: numbers.length / 2 }, (_, at) => framePoint(numbers[2 * at]!, numbers[2 * at + 1]!));
   return { points, closed: true, unknownSides: [] };
-}
-
-function pathOf({ path, name }: Incoming): string {
-  return (path ?? name).replace(/^\//, '');
 }
 
 // --- Recognising --------------------------------------------------------------------------------------------------

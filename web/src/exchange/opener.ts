@@ -1,4 +1,5 @@
 import { holdModel } from './bring_files';
+import { ofOneStudy, withoutContested } from './contested';
 import { inTurn } from './in_turn';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
@@ -16,6 +17,7 @@ import { texts } from '../texts/texts';
 import { openFrames, sizesAmong } from './frames_opener';
 import { atHand, componentFor } from './guess';
 import { attempt, fewNames, noOutcome, type Outcome, troubleOf } from './outcome';
+import { fileName } from './paths';
 import { rowsOfFrames } from './pose_rows';
 import { type Recognised, recognise } from './recognise';
 import { offerStatedOrder } from './stated_order';
@@ -47,7 +49,7 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   const { opened, failed, leftOut } = outcome;
   const all = await recognised(services, files, failed);
   const study = await studyAmong(all, failed);
-  const meant = study ? asTheStudyMeans(study, all, leftOut) : all;
+  const meant = study ? asTheStudyMeans(study, all, leftOut) : ofOneStudy(all, failed);
   const outlines = await outlineFiles(services, meant);
   const others = meant.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
   const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
@@ -59,7 +61,7 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   // Of a whole folder what is not recognised is told in one sentence.
   const strangers = meant.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
-  for (const file of single) await attempt(file, () => openOne(services, work, file, failed), outcome);
+  await openSingle(services, work, single, outcome);
   if (frames.length > 0) await openFrames(services, work, frames, outcome);
   const poses = sortedPoses(store.state, meant.filter((file) => file.kind === 'poses'));
   for (const file of poses.clear) await attempt(file, () => openPoses(services, work, file), outcome);
@@ -79,6 +81,14 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, work, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** A session has models that others stand beside. */
+async function openSingle(services: Services, work: WorkOnView, files: readonly Recognised[], outcome: Outcome): Promise<void> {
+  const open = (file: Recognised) => attempt(file, () => openOne(services, work, file, outcome.failed), outcome);
+  for (const file of files.filter(({ kind }) => kind === 'session')) await open(file);
+  const others = files.filter(({ kind }) => kind !== 'session');
+  for (const file of await withoutContested(services, others, outcome.failed)) await open(file);
 }
 
 async function tellMismatches(services: Services, files: readonly Recognised[], failed: string[]): Promise<void> {
@@ -299,7 +309,7 @@ async function openStudy(services: Services, { name, study }: StudyFile): Promis
   const { store } = services;
   store.perform(takeStudy(study, name));
   for (const { component, model, unit } of study.parts) {
-    const isOfFile = model !== null && store.doc.components[component].model?.name === model;
+    const isOfFile = model !== null && store.doc.components[component].model?.name === fileName(model);
     if (!isOfFile || !unit || unit === 'mm') continue;
     const { takeInMillimetres } = await import('./model_unit');
     await takeInMillimetres(services, component, UNITS_MM[unit]);

@@ -2,6 +2,7 @@ import { sentenceOf } from '../jobs/services';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { Incoming } from './incoming';
+import { pathOf } from './paths';
 
 /** What came of files that were opened together, in words. */
 export interface Outcome {
@@ -33,7 +34,7 @@ export function troubleOf(name: string, error: unknown): string {
 
 /** A few names, and how many more there are. */
 export function fewNames(files: readonly Incoming[]): string {
-  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const names = files.slice(0, 3).map(pathOf);
   const rest = files.length - names.length;
   return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
 }

@@ -2,6 +2,7 @@ import type { PoseSets, State } from '../document/store';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { componentFor } from './guess';
 import type { Incoming } from './incoming';
+import { pathOf } from './paths';
 
 /** Files of poses by what they are for: those that are the only one of their component, and the others by component. */
 export interface SortedPoses<F extends Incoming> {
@@ -23,7 +24,7 @@ export function sortedPoses<F extends Incoming>(state: State, files: readonly F[
 /** What a person is asked; null where nothing is contested. `open` opens what was chosen. */
 export function setsToAsk<F extends Incoming>({ contested }: SortedPoses<F>, open: (files: readonly F[]) => void): PoseSets | null {
   if (COMPONENT_NAMES.every((component) => contested[component].length === 0)) return null;
-  const names = (component: ComponentName) => contested[component].map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const names = (component: ComponentName) => contested[component].map(pathOf);
   return {
     names: { femur: names('femur'), tibia: names('tibia') },
     take: (chosen) =>

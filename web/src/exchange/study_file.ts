@@ -13,6 +13,7 @@ const readStudyText = object({
   side: optional(oneOf('left', 'right')),
   frames_per_s: optional(number),
   frames: optional(text),
+  calibration: optional(text),
   film: optional(object({ curvature: optional(number), blur_px: optional(number), display: optional(oneOf(...DISPLAYS)) })),
   component: list(
     object({
@@ -31,8 +32,9 @@ const readStudyText = object({
 
 /** Throws a sentence that names the place. Parts that are neither femur nor tibia are left to the laboratory. */
 export function readStudy(content: string): Study {
-  const { name, side, frames_per_s: rate, frames, film, component: parts } = readStudyText(parsed(content), texts.study.place);
-  return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart), ...(frames !== null && { frames }) };
+  const { name, side, frames_per_s: rate, frames, calibration, film, component: parts } = readStudyText(parsed(content), texts.study.place);
+  const files = { ...(frames !== null && { frames }), ...(calibration !== null && { calibration }) };
+  return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart), ...files };
 }
 
 type StudyText = ReturnType<typeof readStudyText>;
@@ -58,9 +60,9 @@ function readPart({ model, unit, reference, axes, nominal, distance_mm: distance
   return [
     {
       component,
-      model: model && fileName(model),
+      model,
       unit,
-      reference: reference && fileName(reference),
+      reference,
       axes: axes === null ? null : readStudyAxes(axes, component),
       nominal: x === undefined || y === undefined ? null : [x, y],
       distance,
@@ -81,8 +83,4 @@ function parsed(content: string): unknown {
     const [first = ''] = (error as Error).message.split('\n');
     throw new ReadError(texts.study.notRead(first));
   }
-}
-
-function fileName(path: string): string {
-  return path.split(/[\\/]/).at(-1) ?? path;
 }

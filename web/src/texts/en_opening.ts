@@ -6,6 +6,14 @@ export const opening = {
   /** Without its full stop. */
   dropped: (cells: number) => `${cells} followed ${cells === 1 ? 'pose is' : 'poses are'} dropped, found with the one before: Follow again, or undo`,
   tooLate: (names: string) => `${names}: other work came on view before this was read, and it was not opened. Go back to the work that it is for, and open it there.`,
+  otherStudies: (opened: string, count: number, names: string) =>
+    `These are several studies. ${opened} is opened; left out, with what lies beside ${count === 1 ? 'it' : 'them'}: ${names}. Open each by its own folder.`,
+  severalStudies: (folders: string) => `These are several studies, with a calibration and frames each: ${folders}. None was opened: open the folder of one.`,
+  notNamed: (count: number, names: string, named: string) =>
+    `${count === 1 ? 'One file is none' : `${count} files are none`} that the study names for its calibration, femur and tibia (${named}, from its own folder) and left out: ${names}.`,
+  calibrations: 'calibrations',
+  modelsOf: (component: string) => `models of the ${component}`,
+  contested: (what: string, names: string) => `There are several ${what}: ${names}. None of them was taken: open the one that is meant by itself.`,
   knownFrames: (count: number) => `${count === 1 ? 'One frame is' : `${count} frames are`} of this work already, by ${count === 1 ? 'its' : 'their'} content.`,
   andMoreFiles: (count: number) => `${count} more are in the list of messages.`,
   otherOrder: (byName: string, byPlace: string) =>

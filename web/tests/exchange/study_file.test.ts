@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
+import { fileName } from '../../src/exchange/paths';
 import { readStudy } from '../../src/exchange/study_file';
 import { writeStudy } from '../../src/exchange/study_text';
 import { setCalibration, setModel } from '../../src/document/commands';
-import { componentIn, takeStudy } from '../../src/document/study';
+import { takeStudy } from '../../src/document/study';
 import { Store } from '../../src/document/store';
 import { NOTHING_STATED } from '../../src/document/types';
 import { wordsOf } from '../../src/geometry/axes';
@@ -33,10 +34,11 @@ model = "patella.stl"
 describe('a study file', () => {
   it('says which file is what, and what is known of the models; undone in one step', () => {
     const study = readStudy(STUDY);
-    expect(componentIn(study, 'model', 'femur.stl')).toBe('femur');
-    expect(componentIn(study, 'model', 'tray.stl')).toBe('tibia');
-    expect(componentIn(study, 'model', 'patella.stl')).toBeUndefined();
-    expect(componentIn(study, 'reference', 'femur.jts')).toBe('femur');
+    expect(study.calibration).toBe('calibration.txt');
+    expect(study.parts.map(({ component, model, reference }) => [component, model, reference])).toEqual([
+      ['femur', 'cad/femur.stl', 'femur.jts'],
+      ['tibia', 'tray.stl', null],
+    ]);
     const store = new Store();
     store.perform(takeStudy(study, 'study.toml'));
     const { name, side, rate, components } = store.doc;
@@ -70,8 +72,8 @@ describe('a study file', () => {
     const written = writeStudy(store.doc);
     expect(written).toMatch(/^name = "my study"\nside = "left"\ncalibration = "calibration.txt"\nframes_per_s = 15/);
     const { parts, ...rest } = readStudy(written);
-    expect(rest).toEqual({ name: study.name, side: study.side, rate: study.rate, film: study.film });
-    expect(parts).toEqual(study.parts.map((part) => ({ ...part, reference: null })));
+    expect(rest).toEqual({ name: study.name, side: study.side, rate: study.rate, film: study.film, calibration: study.calibration });
+    expect(parts).toEqual(study.parts.map((part) => ({ ...part, model: fileName(part.model!), reference: null })));
   });
 
   it.each([
