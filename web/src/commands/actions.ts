@@ -18,7 +18,7 @@ import { ended } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import { TracingActions } from './tracing_actions';
 import { download, droppedFiles, pickFiles } from '../exchange/browser_files';
-import { troubleOf } from '../exchange/outcome';
+import { troubleOf } from '../exchange/trouble';
 import { fileStem } from '../terms/file_name';
 import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';

@@ -2,7 +2,7 @@ import type { Asset } from '../document/assets';
 import type { Doc, FrameEntry } from '../document/types';
 import type { Services } from '../jobs/services';
 import { bytesOf } from './incoming';
-import { troubleOf } from './outcome';
+import { troubleOf } from './trouble';
 import { COMPONENT_NAMES } from '../terms/component';
 import { ended } from '../texts/sentences';
 import { texts } from '../texts/texts';

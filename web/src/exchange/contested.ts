@@ -3,6 +3,7 @@ import type { Services } from '../jobs/services';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { later } from '../texts/later';
 import { texts } from '../texts/texts';
+import type { FileKind } from '../workers/protocol/decode';
 import { holdModel } from './bring_files';
 import { componentFor, componentSaid } from './guess';
 import { bytesOf, type Incoming } from './incoming';
@@ -10,11 +11,12 @@ import { fewNames } from './outcome';
 import { nearest, parentOf, pathOf } from './paths';
 import type { Recognised } from './recognise';
 
-/** Folders that have a calibration and frames each, where no study file tells, are studies of their own: none is taken. */
+/** All files, where no study file could be read. Folders that have one each, or a calibration and frames, are studies of their own: none is taken. */
 export function ofOneStudy(files: readonly Recognised[], failed: string[]): readonly Recognised[] {
-  const folders = [...new Set(files.filter(({ kind }) => kind === 'calibration').map((file) => parentOf(pathOf(file))))];
-  const ofFrames = new Set(files.filter(({ kind }) => kind === 'frames').map((file) => nearest(folders, file)));
-  const studies = folders.filter((folder) => ofFrames.has(folder));
+  const foldersOf = (wanted: FileKind) => [...new Set(files.filter(({ kind }) => kind === wanted).map((file) => parentOf(pathOf(file))))];
+  const [named, calibrated] = [foldersOf('study'), foldersOf('calibration')];
+  const ofFrames = new Set(files.filter(({ kind }) => kind === 'frames').map((file) => nearest(calibrated, file)));
+  const studies = named.length > 1 ? named : calibrated.filter((folder) => ofFrames.has(folder));
   if (studies.length < 2) return files;
   failed.push(later.opening.severalStudies(texts.listed(studies.map((folder) => folder || '.'))));
   return [];

@@ -16,7 +16,7 @@ import { UNITS_MM } from '../terms/length_unit';
 import { texts } from '../texts/texts';
 import { openFrames, sizesAmong } from './frames_opener';
 import { atHand, componentFor } from './guess';
-import { attempt, fewNames, noOutcome, type Outcome, troubleOf } from './outcome';
+import { attempt, fewNames, noOutcome, type Outcome } from './outcome';
 import { fileName } from './paths';
 import { rowsOfFrames } from './pose_rows';
 import { type Recognised, recognise } from './recognise';
@@ -31,6 +31,7 @@ import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import type { Services } from '../jobs/services';
 import { mismatchOf, openSession } from './session_opener';
+import { troubleOf } from './trouble';
 import type { WorkOnView } from './work_on_view';
 
 /**

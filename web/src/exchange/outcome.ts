@@ -1,8 +1,8 @@
-import { sentenceOf } from '../jobs/services';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { Incoming } from './incoming';
 import { pathOf } from './paths';
+import { troubleOf } from './trouble';
 
 /** What came of files that were opened together, in words. */
 export interface Outcome {
@@ -24,12 +24,6 @@ export async function attempt({ name }: Incoming, open: () => Promise<string>, {
   } catch (error) {
     if (!(error instanceof Aborted)) failed.push(troubleOf(name, error));
   }
-}
-
-/** What is amiss with a file, by its name, with which some sentences begin already. */
-export function troubleOf(name: string, error: unknown): string {
-  const sentence = sentenceOf(error);
-  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
 }
 
 /** A few names, and how many more there are. */

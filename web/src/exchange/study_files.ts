@@ -5,9 +5,10 @@ import { texts } from '../texts/texts';
 import type { FileKind } from '../workers/protocol/decode';
 import { textOf } from './incoming';
 import { byName } from './name_order';
-import { fewNames, troubleOf } from './outcome';
+import { fewNames } from './outcome';
 import { fileName, nearest, parentOf, pathOf, resolved } from './paths';
 import type { Recognised } from './recognise';
+import { troubleOf } from './trouble';
 
 export interface StudyFile {
   readonly name: string;
@@ -20,10 +21,11 @@ export interface StudyFile {
 export async function studyAmong(files: readonly Recognised[], failed: string[]): Promise<StudyFile | null> {
   const [file, ...others] = studiesAmong(files);
   if (!file) return null;
-  if (others.length > 0) failed.push(later.opening.otherStudies(pathOf(file), others.length, fewNames(others)));
   try {
     const { readStudy } = await import('./study_file');
-    return { name: file.name, folder: parentOf(pathOf(file)), study: readStudy(await textOf(file)) };
+    const study = readStudy(await textOf(file));
+    if (others.length > 0) failed.push(later.opening.otherStudies(pathOf(file), others.length, fewNames(others)));
+    return { name: file.name, folder: parentOf(pathOf(file)), study };
   } catch (error) {
     failed.push(troubleOf(file.name, error));
     return null;
@@ -40,7 +42,7 @@ function studiesAmong(files: readonly Recognised[]): readonly Recognised[] {
 export function asTheStudyMeans(found: StudyFile, files: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
   const { calibration, parts } = found.study;
   const folders = studiesAmong(files).map((file) => parentOf(pathOf(file)));
-  const isNear = (file: Recognised) => nearest(folders, file) === found.folder;
+  const isNear = (file: Recognised) => (nearest(folders, file) ?? found.folder) === found.folder;
   const meant = new Map<Recognised, ComponentName | undefined>();
   const take = (kind: FileKind, written: string | null | undefined, component?: ComponentName) => {
     const file = written && meantBy(found, written, files.filter((candidate) => candidate.kind === kind), isNear);

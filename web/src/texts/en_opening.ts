@@ -8,7 +8,7 @@ export const opening = {
   tooLate: (names: string) => `${names}: other work came on view before this was read, and it was not opened. Go back to the work that it is for, and open it there.`,
   otherStudies: (opened: string, count: number, names: string) =>
     `These are several studies. ${opened} is opened; left out, with what lies beside ${count === 1 ? 'it' : 'them'}: ${names}. Open each by its own folder.`,
-  severalStudies: (folders: string) => `These are several studies, with a calibration and frames each: ${folders}. None was opened: open the folder of one.`,
+  severalStudies: (folders: string) => `These are several studies: ${folders}. None was opened: open the folder of one.`,
   notNamed: (count: number, names: string, named: string) =>
     `${count === 1 ? 'One file is none' : `${count} files are none`} that the study names for its calibration, femur and tibia (${named}, from its own folder) and left out: ${names}.`,
   calibrations: 'calibrations',

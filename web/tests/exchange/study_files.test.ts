@@ -48,6 +48,11 @@ describe('a study that names its files', () => {
     expect(await isModel('/all/models/femur.stl')).toBe(true);
   });
 
+  it('gets frames and poses that lie outside its folder, where no other study is', async () => {
+    const { frames } = await opened(study('/knee/data/study.toml', femur('femur.stl')), at('/knee/data/femur.stl'), at('/knee/frames/f1.png'), at('/f2.png'));
+    expect(frames()).toEqual(['f2.png', 'f1.png']);
+  });
+
   it('gets the only one of a name where nobody tells folders, or it does not', async () => {
     const loose = await opened(study('study.toml', femur('models\\\\size3.stl')), at('size3.stl'), at('size4.stl'));
     expect(await loose.isModel('size3.stl')).toBe(true);
@@ -82,10 +87,16 @@ describe('several studies', () => {
     expect(frames()).toHaveLength(1);
   });
 
+  it('are not opened where the study file of the first is wrong', async () => {
+    const { doc, said } = await opened(...patient('anna', 'frames_per_s = "many"\n'), ...patient('bert', femur('femur.stl')));
+    expect([doc.frames, doc.calibration, doc.components.femur.model]).toEqual([[], null, null]);
+    expect(said()).toMatch(/study\.toml: .*frames_per_s.* These are several studies: all\/anna and all\/bert\. None was opened/);
+  });
+
   it('without study files are told by their calibrations and frames, and none is opened', async () => {
     const { doc, said } = await opened(...['anna', 'bert'].flatMap((name) => patient(name, '').slice(1)));
     expect([doc.frames, doc.calibration, doc.components.femur.model]).toEqual([[], null, null]);
-    expect(said()).toContain('These are several studies, with a calibration and frames each: all/anna and all/bert. None was opened');
+    expect(said()).toContain('These are several studies: all/anna and all/bert. None was opened');
   });
 });
 
