@@ -307,12 +307,15 @@ export class Actions {
     await this.open(meant.map((file) => ({ ...file, component })));
   }
 
-  async open(files: readonly Incoming[]): Promise<void> {
-    if (files.length === 0) return;
+  /** True where the work that they are for is on view in the end. */
+  async open(files: readonly Incoming[]): Promise<boolean> {
+    let isHere = false;
+    if (files.length === 0) return isHere;
     await this.#telling(async () => {
       const { openFiles } = await import('../exchange/opener');
-      await openFiles(this.#services, files, (file) => this.videos?.begin(file));
+      isHere = await openFiles(this.#services, files, (file) => this.videos?.begin(file));
     });
+    return isHere;
   }
 
   async openDemonstration(): Promise<void> {

@@ -13,10 +13,10 @@ const said = texts.files.video;
 /** The video whose pictures are being chosen. What is taken of it goes the way of all image files. */
 export class Videos {
   readonly #services: Services;
-  readonly #open: (files: readonly Incoming[]) => Promise<void>;
+  readonly #open: (files: readonly Incoming[]) => Promise<boolean>;
   #video: Video | null = null;
 
-  constructor(services: Services, open: (files: readonly Incoming[]) => Promise<void>) {
+  constructor(services: Services, open: (files: readonly Incoming[]) => Promise<boolean>) {
     this.#services = services;
     this.#open = open;
     let shown = false;
@@ -80,7 +80,9 @@ export class Videos {
     } finally {
       video.close();
     }
-    if (taken.length > 0) await this.#open(taken.map(({ name, bytes }) => ({ name, blob: new Blob([bytes]) })));
+    const isHere = taken.length > 0 && (await this.#open(taken.map(({ name, bytes }) => ({ name, blob: new Blob([bytes]) }))));
+    // That is said, and the rate is not of what is on view.
+    if (taken.length > 0 && !isHere) return;
     // Frames that were here before may be of another film.
     if (taken.length > 1 && doc.frames.length === 0 && doc.rate === null) store.perform(setRate(video.rate / Math.max(1, Math.round(choice.every))));
     if (abort.signal.aborted) return store.say('info', said.called(taken.length));
