@@ -43,11 +43,25 @@ pub enum CalibrationError {
         /// What was expected.
         name: &'static str,
     },
-    /// The camera matrix has a skew, or its last row is not 0, 0, 1.
+    /// The camera matrix has a skew.
     #[error(
         "the camera matrix is not of the form fx,0,cx / 0,fy,cy / 0,0,1; skewed pixels are not supported"
     )]
     Matrix,
+    /// The last row of the camera matrix is not 0, 0, 1.
+    #[error(
+        "the last row of the camera matrix is {},{},{}, but the matrix is of the form fx,0,cx / 0,fy,cy / 0,0,1: divide all of it by its last number, and write it by rows",
+        .0[0], .0[1], .0[2]
+    )]
+    LastRow([f64; 3]),
+    /// One more number stands below the pixel pitch.
+    #[error(
+        "line {line} of the calibration holds one more number below the pixel pitch, and nothing says what it is: one camera has JT_INTCALIB and four numbers; give each camera a file of its own, and leave other numbers out"
+    )]
+    OneMore {
+        /// Line, from 1.
+        line: usize,
+    },
     /// A focal length of the camera matrix is negative.
     #[error(
         "the camera matrix has a negative focal length, {focal}: it is of a camera whose {axis} runs the other way; write it without the minus, and turn the signs of the {row} row of the rotation and the {row} number of the translation, where the file has them"
@@ -266,6 +280,12 @@ fn parse_principal<'a>(
     let [x] = next_numbers(&mut lines, "principal point x")?;
     let [y] = next_numbers(&mut lines, "principal point y")?;
     let [pitch] = next_numbers(&mut lines, "pixel pitch")?;
+    // Notes stand there too, and three vectors of where the camera is in a laboratory, on which no pose in the camera's axes depends.
+    for line in lines {
+        if numbers::<1>(line, "").is_ok() {
+            return Err(CalibrationError::OneMore { line: line.0 });
+        }
+    }
     // The values are checked now, against a frame of any size, so that a bad file is refused
     // when it is opened and not when the first frame is.
     Camera::from_principal_distance(1024, 1024, distance, pitch, [x, y])?;
@@ -282,7 +302,10 @@ fn parse_matrix<'a>(
     let size = next_size(&mut lines)?;
     heading(&mut lines, "camera matrix")?;
     let k = next_matrix(&mut lines, "camera matrix")?;
-    if k[0][1] != 0.0 || k[1][0] != 0.0 || k[2] != [0.0, 0.0, 1.0] {
+    if k[2] != [0.0, 0.0, 1.0] {
+        return Err(CalibrationError::LastRow(k[2]));
+    }
+    if k[0][1] != 0.0 || k[1][0] != 0.0 {
         return Err(CalibrationError::Matrix);
     }
     for (focal, axis, row) in [(k[0][0], "x", "first"), (k[1][1], "y", "second")] {

@@ -20,6 +20,32 @@ fn jt_intcalib_is_read_and_written() {
 }
 
 #[test]
+fn below_the_pixel_pitch_stand_notes_and_no_number() {
+    let text = "JT_INTCALIB\n1198\n0\n-1.5\n0.373\n";
+    for below in [
+        "\n \r\n",
+        "# principal distance, x and y of the principal point, pitch\n",
+        "taken 2019, room 2",
+        // Where the source is, the normal of the detector and its upward direction.
+        "\nexternal\n0 0 1198\n0 0 1\n0 1 0\n",
+    ] {
+        let told = Calibration::parse(&std::format!("{text}{below}"));
+        assert_eq!(told, Calibration::parse(text), "{below:?}");
+    }
+    for (below, line) in [
+        ("55", 6),
+        ("\n# pitch\n0.373,\n", 8),
+        ("1200\n0\n0\n0.4", 6),
+    ] {
+        let error = Calibration::parse(&std::format!("{text}{below}"));
+        assert_eq!(error, Err(CalibrationError::OneMore { line }), "{below:?}");
+        let error = error.expect_err("a number").to_string();
+        let words = std::format!("line {line} of the calibration holds one more number");
+        assert!(error.starts_with(&words), "{error}");
+    }
+}
+
+#[test]
 fn a_part_at_a_distance_that_nobody_tells_is_looked_for_from_two() {
     let matrix = Calibration::parse(MATRIX).expect("valid");
     let usual = matrix.expected_distance();
@@ -122,7 +148,13 @@ fn faults_are_named() {
         let error = parse(text).expect_err(text);
         assert!(error.contains(words), "{text:?}: {error}");
     }
-    assert!(parse(&MATRIX.replace("0,3180", "2,3180")).is_err());
+    let skewed = parse(&MATRIX.replace("0,3180", "2,3180")).expect_err("skewed");
+    assert!(skewed.contains("skewed pixels"), "{skewed}");
+    for row in ["0,0,2", "510.5,380,1"] {
+        let error = parse(&MATRIX.replacen("0,0,1", row, 1)).expect_err(row);
+        let words = std::format!("last row of the camera matrix is {row}, but");
+        assert!(error.contains(&words), "{error}");
+    }
     assert!(parse(&MATRIX.replace("3200", "nan")).is_err());
     let parts =
         parse(&MATRIX.replace("3200", "3.1").replace("3180", "3.1")).expect_err("not in pixels");
