@@ -7,6 +7,9 @@ use fluoropose::image::region::largest_region;
 /// Specks are at most this part of the silhouette, percent.
 const SPECK_SHARE: u64 = 10;
 
+/// So many separate pieces are counted at most.
+pub const MOST_PIECES: usize = 4;
+
 /// A silhouette with its own memory.
 #[derive(Clone, Debug)]
 pub struct MaskBuffer {
@@ -109,6 +112,26 @@ impl MaskBuffer {
         Ok(dropped)
     }
 
+    /// Pixels of its separate pieces, the largest first, until what is left would be specks; no more than [`MOST_PIECES`].
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn pieces(&self) -> Result<Vec<u64>> {
+        let blank = || Self::new(self.width, self.height);
+        let (mut left, mut pieces) = (self.clone(), Vec::new());
+        while pieces.len() < MOST_PIECES {
+            let (mut rest, mut largest) = (blank()?, blank()?);
+            let behind =
+                rest.draw(|rest| largest.draw(|out| largest_region(&left.mask(), rest, out)))?;
+            pieces.push(largest.mask().area());
+            if behind <= SPECK_SHARE * pieces[0] / 100 {
+                break;
+            }
+            left = left.combined(&largest, |all, taken| all & !taken)?;
+        }
+        Ok(pieces)
+    }
+
     /// What has been drawn.
     pub fn mask(&self) -> Mask<'_> {
         Mask::new(&self.words, self.width, self.height)
@@ -154,5 +177,21 @@ mod tests {
         assert_eq!(halves.mask().area(), 4100);
         let mut empty = squares(&[]);
         assert_eq!(empty.drop_specks().unwrap(), 0);
+    }
+
+    #[test]
+    fn pieces_are_counted_until_specks_are_left() {
+        for (sides, areas) in [
+            (&[50, 3][..], &[2500][..]),
+            (&[40, 50], &[2500, 1600]),
+            (&[16, 50, 3], &[2500, 256]),
+            (&[], &[0]),
+        ] {
+            assert_eq!(squares(sides).pieces().unwrap(), areas, "{sides:?}");
+        }
+        // A chessboard of single pixels.
+        let board: Vec<u8> = (0..101 * 7).map(|at| (at % 2) as u8).collect();
+        let board = MaskBuffer::of_pixels(&board, 101, 7).unwrap();
+        assert_eq!(board.pieces().unwrap(), [1; MOST_PIECES]);
     }
 }

@@ -1,12 +1,14 @@
 //! Poses of every frame of a sequence.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use fluoropose::finder::Candidate;
+use anyhow::Error;
+use fluoropose::finder::{Candidate, FindError};
 use fluoropose::locate::Located;
 use rayon::prelude::*;
 
 use super::finder::Finder;
+use crate::noise::{Disturbed, MOST_PIECES};
 use crate::progress::progress;
 use crate::sequence::Sequence;
 
@@ -34,9 +36,10 @@ pub fn first_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<Located>
 
 /// Finds the poses of every frame of a sequence, on all cores. A frame without one has no candidates and says why.
 pub fn find_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<FrameFound> {
-    let files: Vec<PathBuf> = sequence.masks().map(|(path, _)| path.to_owned()).collect();
-    let bar = progress(files.len(), "masks");
-    let find = |finder: &mut Finder<'_>, (frame, file): (usize, PathBuf)| {
+    let masks: Vec<_> = sequence.masks().collect();
+    let bar = progress(masks.len(), "masks");
+    let find = |finder: &mut Finder<'_>, (frame, (file, mask)): (usize, (&Path, &Disturbed))| {
+        let file = file.to_owned();
         let found = sequence.look(frame, |seen| finder.all(seen));
         bar.inc(1);
         match found {
@@ -48,12 +51,35 @@ pub fn find_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<FrameFoun
             Err(error) => FrameFound {
                 file,
                 candidates: Vec::new(),
-                failure: Some(format!("{error:#}")),
+                failure: Some(why(mask, &error)),
             },
         }
     };
-    let frames = files.into_par_iter().enumerate();
+    let frames = masks.into_par_iter().enumerate();
     let found = frames.map_init(|| finder.clone(), find).collect();
     bar.finish_and_clear();
     found
+}
+
+/// Why nothing was found in a mask: that it is in pieces, rather than that an outline around all of them fits nowhere. Where pixels are told to be
+/// unknown, they may divide it.
+fn why(mask: &Disturbed, error: &Error) -> String {
+    let areas = match mask.unknown {
+        None if error.is::<FindError>() => mask.mask.pieces().unwrap_or_default(),
+        _ => Vec::new(),
+    };
+    let areas: Vec<String> = areas.iter().map(u64::to_string).collect();
+    let [first @ .., last] = &areas[..] else {
+        return format!("{error:#}");
+    };
+    let number = match areas.len() {
+        1 => return format!("{error:#}"),
+        MOST_PIECES => format!("at least {MOST_PIECES}"),
+        few => few.to_string(),
+    };
+    format!(
+        "the mask has {number} separate pieces, of {} and {last} pixels, and an implant is one: leave out what is not its own, and mark what hides a part \
+         of it as unknown",
+        first.join(", ")
+    )
 }

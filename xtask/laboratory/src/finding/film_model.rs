@@ -1,6 +1,6 @@
 //! The constants of a film from the frames at hand, and poses corrected by them.
 
-use anyhow::Result;
+use anyhow::{Error, Result};
 use fluoropose::camera::Camera;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
@@ -222,13 +222,23 @@ impl Filmed<'_> {
                 Ok(candidates) => found.candidates = candidates.to_vec(),
                 Err(error) => {
                     found.candidates.clear();
-                    found.failure = Some(format!("{error:#}"));
+                    found.failure = Some(self.why(frame, &error));
                 }
             }
             found
         };
         let frames = self.found.par_iter().enumerate();
         frames.map_init(RefineBuffers::default, bring).collect()
+    }
+
+    /// Why a frame leads nowhere: that there is nothing in it, rather than that it fits nowhere.
+    fn why(&self, frame: usize, error: &Error) -> String {
+        match self.sequence.only_grey(frame) {
+            Some(grey) => format!(
+                "the frame has the grey value {grey} everywhere: nothing is to be seen in it; give the frame that was traced, or leave it out"
+            ),
+            None => format!("{error:#}"),
+        }
     }
 
     /// Corrects all poses by the film's model, which has become better known. A frame that cannot be corrected stays as it is,
