@@ -104,6 +104,8 @@ test('the npm module', { timeout: 3 * PATIENCE }, async (t) => {
     }
   });
 
+  await t.test('a library is taken as a model is, and one that is refused is let go of', () => librariesTaken(folder));
+
   await t.test('its types are those of its three lines', () => typesAreRight(folder));
 });
 
@@ -115,6 +117,34 @@ async function exampleFolder() {
   await symlink(join(setting('FLUOROPOSE_PACKAGE'), 'npm'), join(folder, 'node_modules/fluoropose'), 'junction');
   for (const name of ['femur.stl', 'calibration.txt']) await writeFile(join(folder, name), (await demoFile(name)).buffer);
   return folder;
+}
+
+/** @param {string} folder */
+async function librariesTaken(folder) {
+  const from = (/** @type {string} */ name) => import(pathToFileURL(join(folder, 'node_modules/fluoropose', name)).href);
+  const { openImplant } = await from('node.js');
+  const { frame, outline } = JSON.parse(await readFile(join(folder, 'outline.json'), 'utf8'));
+  const [model, calibration] = [await readFile(join(folder, 'femur.stl')), await readFile(join(folder, 'calibration.txt'), 'utf8')];
+  const opened = (/** @type {object} */ options) => openImplant({ model, calibration, frame, ...options });
+  const femur = await opened({});
+  const { library } = femur;
+  const again = await opened({ library: library.slice().buffer });
+  assert.deepEqual(again.library, library);
+  // A last point that repeats the first closes the outline.
+  assert.deepEqual(again.preview([...outline, outline[0]]).pose, femur.preview(outline).pose);
+  for (const implant of [femur, again]) implant.close();
+  await assert.rejects(opened({ library, views: { nominal: [0, 0] } }), /views says what to render, and a library is rendered/);
+  const steps = /The library's x rotations from -80 to 80 degrees are more than 4096 steps of 0\.001; give a larger step or a narrower range/;
+  await assert.rejects(opened({ views: { x: [-80, 80, 0.001] } }), steps);
+
+  const { memory } = await (await from('pkg/core/fluoropose_wasm.js')).default();
+  const tibia = (await demoFile('tibia.stl')).buffer;
+  const held = async (/** @type {number} */ times) => {
+    for (let time = 0; time < times; time++) await assert.rejects(opened({ model: tibia, library }), /made from another model/);
+    return memory.buffer.byteLength;
+  };
+  const first = await held(1);
+  assert.equal(await held(20), first, 'refused libraries stay in memory');
 }
 
 /** A binary STL file, its lengths divided by ten. @param {Buffer} model */

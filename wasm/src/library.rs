@@ -67,9 +67,19 @@ impl LibraryViews {
     }
 }
 
+/// A library has no more rotations about an axis.
+const MOST_STEPS: f64 = 4096.0;
+
 fn axis(name: &str, range: &[f64]) -> Result<ViewAxis, JsError> {
     match *range {
-        [first, last, step] if step > 0.0 && last >= first && (last - first) / step < 4096.0 => {
+        [first, last, step]
+            if step > 0.0 && last >= first && (last - first) / step >= MOST_STEPS =>
+        {
+            Err(JsError::new(&format!(
+                "The library's {name} rotations from {first} to {last} degrees are more than {MOST_STEPS} steps of {step}; give a larger step or a narrower range"
+            )))
+        }
+        [first, last, step] if step > 0.0 && last >= first => {
             // Half a thousandth of a step forgives the rounding of typed decimals.
             let count = ((last - first) / step + 5e-4).floor() as usize + 1;
             Ok(ViewAxis { first, step, count })

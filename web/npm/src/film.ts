@@ -1,3 +1,4 @@
+import { checkSources, checkStated } from './asked.js';
 import { type FilmFacts, FilmSquares, FilmStudy, statedFilm } from './pkg/core/fluoropose_wasm.js';
 import type { FilmConstants, Grey, Hints, Pose, StatedFilm } from './types.js';
 
@@ -22,6 +23,8 @@ const MOST = 2;
  * shown as that uncertain.
  */
 export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm = {}): FilmConstants | null {
+  checkSources(sources);
+  checkStated(stated);
   const implants = [...new Set(sources.map(({ implant }) => implant))];
   if (implants.length > MOST) throw new Error(`A film is estimated from one or two implants, not from ${implants.length}`);
   const facts = factsOf(sources, implants, squareOf(sources, implants, stated), stated);

@@ -1,4 +1,4 @@
-import { checkHints, checkImage, checkOptions, checkOutline, checkPose } from './asked.js';
+import { checkComponent, checkHints, checkImage, checkOptions, checkOutline, checkPose, checkSquare, isBytes } from './asked.js';
 import { decodeModel } from './decode.js';
 import { filmNumbers } from './film.js';
 import { withImage } from './frame_image.js';
@@ -22,8 +22,8 @@ export async function openImplant(options: ImplantOptions): Promise<Implant> {
   await (ready ??= init({ module_or_path: read(address) }));
   const { model, calibration, frame, signal } = options;
   signal?.throwIfAborted();
-  const { mesh, notes } = isMesh(model) ? { mesh: model, notes: [] } : await decodeModel(new Uint8Array(model));
-  const library = options.library ?? (await buildLibrary(mesh, options));
+  const { mesh, notes } = isBytes(model) ? await decodeModel(new Uint8Array(model)) : { mesh: model, notes: [] };
+  const library = options.library ? asBytes(options.library) : await buildLibrary(mesh, options);
   return new Implant(mesh, library, calibration, frame, notes);
 }
 
@@ -45,8 +45,7 @@ export class Implant {
   constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size, notes: readonly string[] = []) {
     const camera = cameraDoubts(calibration, frame.width, frame.height);
     this.library = library;
-    this.#opened = new Matcher(library);
-    this.#opened.takeModel(mesh.vertices, mesh.triangles);
+    this.#opened = opened(library, mesh);
     const model = [...notes, ...this.#opened.remarks];
     this.remarks = [...model.map((remark) => `model: ${remark}`), ...camera.map((doubt) => `camera: ${doubt}`)];
     this.#calibration = calibration;
@@ -84,6 +83,7 @@ export class Implant {
   /** Profiles of a frame, in squares with sides of so many pixels, across the model's outline at a pose: what `estimateFilm` reads. */
   profiles(image: Grey, pose: Pose, squarePx = 1): Float32Array {
     checkPose(pose, 'profiles: pose');
+    checkSquare(squarePx);
     checkImage(image, this.#frame, 'profiles');
     const { width, height } = this.#frame;
     const hidden = new HiddenPixels(this.#calibration, width, height);
@@ -99,6 +99,7 @@ export class Implant {
    * does not.
    */
   axes(component: 'femur' | 'tibia'): Float64Array {
+    checkComponent(component);
     const axes = this.#matcher.axes(component === 'femur')!;
     const { told, directions } = axes;
     axes.free();
@@ -130,18 +131,36 @@ export class Implant {
   }
 }
 
-function isMesh(model: ImplantOptions['model']): model is Mesh {
-  return 'vertices' in model;
+/** A library with its model. What is refused is let go of at once: whoever tries several libraries would fill the memory. */
+function opened(library: Uint8Array, { vertices, triangles }: Mesh): Matcher {
+  const matcher = new Matcher(library);
+  try {
+    matcher.takeModel(vertices, triangles);
+    return matcher;
+  } catch (error) {
+    matcher.free();
+    throw error;
+  }
+}
+
+/** The same object where it is one: an implant's library is what was given. */
+function asBytes(library: Uint8Array | ArrayBuffer): Uint8Array {
+  return library instanceof Uint8Array ? library : new Uint8Array(library);
 }
 
 function surroundings({ femur, tibia, neighbours = [] }: Hints, own: Shaped): Surroundings {
   const around = new Surroundings();
-  const other = femur ?? tibia;
-  if (other && 'implant' in other) around.setAxes(own.axes(femur ? 'tibia' : 'femur'));
-  if (femur) around.setFemur(...lying(femur, 'femur'));
-  if (tibia) around.setTibia(...lying(tibia, 'tibia'));
-  for (const pose of neighbours) around.addNeighbour(numbers(pose));
-  return around;
+  try {
+    const other = femur ?? tibia;
+    if (other && 'implant' in other) around.setAxes(own.axes(femur ? 'tibia' : 'femur'));
+    if (femur) around.setFemur(...lying(femur, 'femur'));
+    if (tibia) around.setTibia(...lying(tibia, 'tibia'));
+    for (const pose of neighbours) around.addNeighbour(numbers(pose));
+    return around;
+  } catch (error) {
+    around.free();
+    throw error;
+  }
 }
 
 /** A pose, and the axes of its implant where that is there. */

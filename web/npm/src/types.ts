@@ -54,7 +54,7 @@ export type Grey = Uint8Array | Uint16Array;
 export interface Film {
   /** Of the display, one divided by grey values: 0 is linear, 1 / g shows g grey values for a factor of e. */
   readonly curvature: number;
-  /** Standard deviation of everything that blurs, px. */
+  /** Standard deviation of everything that blurs, px, at most 12. */
   readonly blur: number;
   /** Attenuation of the metal for thin layers, per mm. */
   readonly attenuation: number;
@@ -63,7 +63,7 @@ export interface Film {
 /** What is known of a film before its frames are asked. */
 export interface StatedFilm {
   readonly display?: 'linear' | 'between' | 'logarithmic';
-  /** Px. */
+  /** Px, at most 12. */
   readonly blur?: number;
 }
 
@@ -74,8 +74,8 @@ export interface ImplantOptions {
   readonly calibration: string;
   readonly frame: Size;
   /** A library made before (`Implant.library`): nothing needs to be rendered. It is refused when it is of another model. */
-  readonly library?: Uint8Array;
-  /** Left out: all directions. */
+  readonly library?: Uint8Array | ArrayBuffer;
+  /** Left out: all directions. A library has its views, and none can be asked for beside it. */
   readonly views?: Views;
   /** Told while the library is rendered. */
   readonly onProgress?: (done: number, total: number) => void;
@@ -119,7 +119,7 @@ export interface Hints {
   readonly laidBy?: 'hand' | 'drawn' | 'tool' | 'mixed';
   /** The femoral component in the same frame, for a tibial one; a pose alone is taken in the axes of both files, which have to be the field's. */
   readonly femur?: Beside | Pose;
-  /** The tibial component in the same frame, for a femoral one; as `femur`. */
+  /** The tibial component in the same frame, for a femoral one; as `femur`, and never with it. */
   readonly tibia?: Beside | Pose;
   /** Poses of the same component in the frames before and after. */
   readonly neighbours?: readonly Pose[];
