@@ -91,6 +91,8 @@ class Arguments(OnTheDemo):
         ):
             with self.assertRaisesRegex(ValueError, words):
                 fp.Camera(matrix(*numbers), size)
+        with self.assertRaisesRegex(ValueError, "K or size: the last row of the camera matrix is 0,0,2, but"):
+            fp.Camera([[6400, 0, 1023], [0, 6400, 1023], [0, 0, 2]], size)
         for skewed in ([[3200, 1, 511], [0, 3200, 511], [0, 0, 1]], np.transpose(matrix(3200, 3200, 511, 511))):
             with self.assertRaisesRegex(ValueError, "K or size: .*fx,0,cx"):
                 fp.Camera(skewed, size)
@@ -242,6 +244,56 @@ class Arguments(OnTheDemo):
         joint = {"femur_model": one, "tibia_model": two, "side": "left"}
         refused(ValueError, "tibia 2", lambda: fp.kinematics(poses[:1], poses, **joint))  # type: ignore[arg-type]
         refused(ValueError, "fps ", lambda: fp.kinematics(poses, poses, cutoff_hz=3.0, **joint))  # type: ignore[arg-type]
+
+    def test_what_would_be_ignored_is_refused(self) -> None:
+        mask, one, refused = np.ones((SIDE, SIDE), bool), self.femur, self.refused
+        masked = np.ma.masked_array(mask, mask=False)
+        np.testing.assert_array_equal(checks.masks(masked, 2, "mask"), mask)
+        masked[0, 0] = np.ma.masked
+        sentence = "is a masked array, and what it masks would count as any other pixel: "
+        grey = np.ma.masked_array(mask.astype(np.uint8), mask=masked.mask)
+        refused(TypeError, f"mask {sentence}", lambda: fp.estimate(masked, one, self.camera))
+        refused(TypeError, "unknown=numpy.ma.getmaskarray", lambda: fp.estimate_all([masked], one, self.camera))
+        refused(TypeError, f"frame {sentence}", lambda: fp.estimate(mask, one, self.camera, frame=grey))
+        refused(TypeError, f"frames {sentence}", lambda: fp.track([grey], one, None, self.camera, "left"))
+        refused(TypeError, "not float64: give mask > 0.5", lambda: fp.estimate(mask * 0.3, one, self.camera))
+        library = self.folder / "femur.library"
+        refused(ValueError, "nominal tells which views", lambda: fp.estimate(mask, one, self.camera, library=library, nominal=(0, 0)))
+        refused(ValueError, "distance_mm tells which views", lambda: fp.estimate(mask, one, self.camera, library=library, distance_mm=900))
+
+    def test_a_nominal_view_is_told_by_name(self) -> None:
+        frame, nowhere = np.zeros((SIDE, SIDE), np.uint8), np.zeros((SIDE, SIDE), bool)
+        for nominal, words in (
+            ((np.nan, 0), "nominal must be of finite numbers, not (nan, 0.0)"),
+            ((75, 0), "nominal must be from -74 to 74 degrees about x and from -340 to 340 about y, not (75.0, 0.0)"),
+            ((0, -341), "nominal must be from -74"),
+        ):
+            self.refused(ValueError, words, lambda nominal=nominal: fp.estimate(nowhere, self.femur, self.camera, nominal=nominal))  # type: ignore[misc]
+            self.refused(ValueError, words, lambda nominal=nominal: fp.estimate(None, self.femur, self.camera, frame=frame, nominal=nominal))  # type: ignore[misc]
+        for nominal in ((74, 340), (-74, -340)):
+            self.assertEqual(fp.estimate(nowhere, self.femur, self.camera, nominal=nominal).status, "none")
+
+    def test_a_frame_without_a_picture_is_told(self) -> None:
+        mask = fp.read_frames(DEMO / "masks/femur")[0]
+        for kind in (np.uint8, np.uint16):
+            blank = np.full((SIDE, SIDE), 7, kind)
+            found = fp.estimate(mask, self.femur, self.camera, frame=blank)
+            self.assertEqual(found.status, "none")
+            self.assertIn("frame has the grey value 7 everywhere: nothing is to be seen in it; give the frame that was traced", found.because)
+            found = fp.estimate(None, self.femur, self.camera, frame=blank, click=(250, 250))
+            self.assertEqual((found.status, found.because), ("none", "the frame has the grey value 7 everywhere: nothing is to be seen in it"))
+
+    def test_a_mask_in_pieces_is_told(self) -> None:
+        mask = fp.read_frames(DEMO / "masks/femur")[0] != 0
+        self.assertFalse(mask[:80, :80].any())
+        area = int(mask.sum())
+        mask[10:70, 10:70] = True
+        found = fp.estimate(mask, self.femur, self.camera)
+        self.assertEqual(found.status, "none")
+        self.assertIn(f"the mask has 2 separate pieces, of 3600 and {area} pixels", found.because)
+        # Where something is told to hide what lies between, pieces are no fault.
+        found = fp.estimate(mask, self.femur, self.camera, unknown=np.eye(SIDE, dtype=bool))
+        self.assertNotIn("pieces,", found.because)
 
     def test_nothing_is_nan_with_a_reason(self) -> None:
         nothing = fp.estimate(np.zeros((SIDE, SIDE), bool), self.femur, self.camera)

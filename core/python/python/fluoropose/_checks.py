@@ -73,6 +73,12 @@ def pixels(value: ArrayLike, one: bool, name: str) -> NDArray[Any]:
     if is_path(value):
         remedy = f"fluoropose.read_frames(path){'[0]' if one else ''}"
         raise TypeError(f"{name} must be an array, not a path: read the file with {remedy}")
+    parts = value if isinstance(value, (list, tuple)) else (value,)
+    if any(isinstance(part, np.ma.MaskedArray) and np.ma.is_masked(part) for part in parts):
+        raise TypeError(
+            f"{name} is a masked array, and what it masks would count as any other pixel: "
+            "give its data alone, and with estimate or estimate_all what is not known of it as unknown=numpy.ma.getmaskarray(...)"
+        )
     try:
         return np.asarray(value)
     except ValueError as error:
@@ -83,7 +89,8 @@ def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
     """Masks as bytes: rows, columns, and before them the frames where there are three dimensions."""
     array = pixels(value, dimensions == 2, name)
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
-        raise TypeError(f"{name} must be of booleans or whole numbers, not {array.dtype}")
+        remedy = f": give {name} > 0.5, or above whatever tells the implant" if np.issubdtype(array.dtype, np.floating) else ""
+        raise TypeError(f"{name} must be of booleans or whole numbers, not {array.dtype}{remedy}")
     if array.ndim != dimensions or 0 in array.shape:
         shape = "(rows, columns)" if dimensions == 2 else "(frames, rows, columns)"
         raise ValueError(f"{name} must have the shape {shape}, none of them 0, not {array.shape}")
@@ -116,6 +123,16 @@ def numbers(value: ArrayLike, shape: tuple[int | None, ...], name: str) -> NDArr
         words = ", ".join("any" if length is None else str(length) for length in shape)
         raise ValueError(f"{name} must have the shape ({words}), not {array.shape}")
     return array
+
+
+def pair(value: tuple[float, float] | None, name: str) -> tuple[float, float] | None:
+    """Two finite numbers, or none."""
+    if value is None:
+        return None
+    two = numbers(value, (2,), name)
+    if not np.isfinite(two).all():
+        raise ValueError(f"{name} must be of finite numbers, not ({two[0]}, {two[1]})")
+    return float(two[0]), float(two[1])
 
 
 def positive(value: float | None, name: str) -> float | None:

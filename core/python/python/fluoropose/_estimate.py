@@ -180,6 +180,9 @@ def estimate_all(
     _checks.choice(chosen, METHODS, "method")
     if chosen == "image" and grey is None:
         raise ValueError("frames must be given for the method image")
+    for name, value in (("nominal", nominal), ("distance_mm", distance_mm)):
+        if library is not None and value is not None:
+            raise ValueError(f"{name} tells which views are rendered, and library has its own: give one of them")
     other = _other(role, beside, beside_model, count)
     remarks = (*camera.seen(width, height), *model.seen("model", role))
     if beside_model is not None:
@@ -192,7 +195,7 @@ def estimate_all(
         frames=grey,
         method=chosen,
         library=None if library is None else _checks.path(library, "library"),
-        nominal=_pair(nominal, "nominal"),
+        nominal=_nominal(nominal),
         distance_mm=_checks.positive(distance_mm, "distance_mm"),
         bright=bright(metal),
         edge_offset=bool(edge_offset),
@@ -220,11 +223,13 @@ def bright(metal: str | None) -> bool | None:
     return None if metal is None else metal == "bright"
 
 
-def _pair(value: tuple[float, float] | None, name: str) -> tuple[float, float] | None:
-    if value is None:
-        return None
-    pair = _checks.numbers(value, (2,), name)
-    return float(pair[0]), float(pair[1])
+def _nominal(value: tuple[float, float] | None) -> tuple[float, float] | None:
+    """A nominal view about which a library can be rendered."""
+    two = _checks.pair(value, "nominal")
+    # Of the window about it, up to 15 and 20 degrees beside it, within what a library reaches, 89 and 360.
+    if two is not None and (abs(two[0]) > 74 or abs(two[1]) > 340):
+        raise ValueError(f"nominal must be from -74 to 74 degrees about x and from -340 to 340 about y, not {two}")
+    return two
 
 
 def _other(
@@ -292,12 +297,14 @@ def _on_frame(
         _checks.choice(role, ("femur", "tibia"), "role")
     grey = _checks.frame(frame, "frame")
     camera.check(grey.shape[1], grey.shape[0], "frame")
-    part = Part(role or "implant", model, None, _pair(nominal, "nominal"), _checks.positive(distance_mm, "distance_mm"))
-    place = None if click is None else _pair(click, "click")
+    part = Part(role or "implant", model, None, _nominal(nominal), _checks.positive(distance_mm, "distance_mm"))
+    place = None if click is None else _checks.pair(click, "click")
     clicks = {} if place is None else {"click": Click(part.name, 0, place[0], place[1])}
     remarks = (*camera.seen(grey.shape[1], grey.shape[0]), *model.seen("model", role))
     with tempfile.TemporaryDirectory(prefix="fluoropose-", ignore_cleanup_errors=True) as folder:
         found = follow([grey], [part], camera, folder, clicks=clicks, metal=metal)[0]
+    darkest, brightest = grey.min(), grey.max()
+    blank = f"the frame has the grey value {darkest} everywhere: nothing is to be seen in it"
     settings = {
         "click": place,
         "nominal": part.nominal,
@@ -312,7 +319,7 @@ def _on_frame(
         sd=Pose(*map(float, found.sd[0])),
         covariance=found.covariance[0],
         status=found.verdict[0],
-        because=found.because[0],
+        because=blank if darkest == brightest else found.because[0],
         decided_by="",
         residual_px=float(found.misfit_px[0]),
         offset_px=float("nan"),
