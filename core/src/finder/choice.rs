@@ -16,6 +16,9 @@
 //! of 16 frames and left one other pose open, 8 to 21 degrees away and of 1.02 to 1.22 times the
 //! residual; the pose taken was right in all of them. A whole film is decided at once by [`choose_film`].
 //!
+//! Where an end of the component is beyond the frame's border what the rules after the first rule out leaves the pose doubtful all the same
+//! ([`super::judge`]): the right one may not be among the candidates.
+//!
 //! A counterpart that is doubtful itself rules out nothing: poses that it speaks against stay open, behind the others.
 //!
 //! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]).

@@ -10,7 +10,7 @@ use core::fmt;
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
-use super::choice::{Choice, OpenRival, RivalPose};
+use super::choice::{Choice, DECISIVE_RATIO, OpenRival, RivalPose};
 use crate::joint::beside::Beside;
 use crate::math::{Decimal, norm, subtract};
 use crate::pose::{Pose, geodesic_deg};
@@ -30,11 +30,19 @@ pub struct Limits {
     pub good_apart_px: f64,
     /// Least part of the outline that is known of a good fit.
     pub good_known: f64,
+    /// Least part of the model in the frame at a good pose.
+    pub good_in_frame: f64,
     /// Least size of a good fit's silhouette, pixels ([`Fit::size_px`]): to a few pixels any outline fits, from some distance.
     pub good_size_px: f64,
     /// Least part of the known outline that is met at any pose.
     pub least_met: f64,
 }
+
+/// Of a part of which more lies beyond the frame an end is missing, and with it what tells the other poses from the right one.
+const BEYOND: f64 = 0.2;
+
+/// Poses that are mirrored lie farther apart than this, degrees; nearer ones are one, as noise has it.
+const OTHER_DEG: f64 = 4.0;
 
 impl Limits {
     /// The usual ones, of `cargo xtask synthetic --refusal`: outlines of the right model with a hand's jitter of 1 px and up
@@ -45,6 +53,7 @@ impl Limits {
         good_met: 0.9,
         good_apart_px: 1.5,
         good_known: 0.5,
+        good_in_frame: 0.6,
         good_size_px: 20.0,
         least_met: 0.45,
     };
@@ -312,13 +321,30 @@ pub fn contenders(candidates: &[Candidate]) -> Vec<RivalPose, CANDIDATES> {
 #[must_use]
 pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Option<Verdict> {
     let chosen = candidates.get(choice.index)?;
-    let open = choice.open.and_then(|OpenRival { index, .. }| {
+    let open = choice.open.map(|OpenRival { index, .. }| index);
+    let open = open.or_else(|| other_of_a_part(candidates, choice.index));
+    let open = open.and_then(|index| {
         let other = candidates.get(index)?;
         Some(Doubt::open(&chosen.pose, &other.pose, other.misfit()))
     });
     let determined = chosen.refined.is_none() || chosen.covariance.is_some();
     let alone = judge_fit(&chosen.fit, determined, limits);
     Some(alone.or_doubt(Doubt::no_knee(choice)).or_doubt(open))
+}
+
+/// Where an end of the component is beyond the frame, the best of the other poses that the residual does not rule out: joint and film tell the
+/// right pose only where it is among the candidates, and to that of a cut outline often none leads.
+fn other_of_a_part(candidates: &[Candidate], chosen: usize) -> Option<usize> {
+    let own = candidates.get(chosen)?;
+    if own.fit.beyond <= BEYOND {
+        return None;
+    }
+    let is_alike = |other: &Candidate| {
+        let turn = geodesic_deg(&other.pose.rotation, &own.pose.rotation);
+        turn > OTHER_DEG && other.misfit() < DECISIVE_RATIO * own.misfit()
+    };
+    let mut others = candidates.iter().enumerate();
+    others.find_map(|(index, other)| (index != chosen && is_alike(other)).then_some(index))
 }
 
 /// How far a pose is to be trusted by itself, whatever other poses do; `determined` where its uncertainty is known, or was
@@ -354,7 +380,7 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     if fit.size_px < side * limits.good_size_px {
         return Some(Doubt::Small { px: fit.size_px });
     }
-    if fit.seen() < limits.good_known {
+    if fit.seen() < limits.good_known || 1.0 - fit.beyond < limits.good_in_frame {
         return Some(Doubt::Unknown { known: fit.seen() });
     }
     if fit.met < limits.good_met {

@@ -18,6 +18,9 @@ use crate::pose::covariance::PoseCovariance;
 /// their size: condyles are as wide as the notch between them and more.
 const CONDYLE_OF_WIDTH: f64 = 1.0 / 3.0;
 
+/// What is farther off than so many standard deviations of depth is so whatever depth is.
+const FAR: f64 = 4.0;
+
 /// A tray's width, in what a knee allows of both that are equally wide: a half less a third is a sixth.
 const WHOLE_TRAY: f64 = 6.0;
 
@@ -118,15 +121,16 @@ impl Middles {
         dot(&self.across, &plate) - self.femur_mm
     }
 
-    /// The same where depths are known well enough to tell it: to what a knee allows. Else NaN.
+    /// The same where depths are known well enough to tell it: to what a knee allows, or where it is more by [`FAR`] standard deviations.
+    /// Else NaN.
     #[must_use]
     pub fn known_mm(&self, femur: &Lying, tibia: &Lying) -> f64 {
         let [.., along_the_view] = apply(&femur.pose.rotation, &self.across);
         let [a, b] = [femur, tibia].map(|lying| along_the_view * lying.depth_sd_mm);
-        match sqrt(a * a + b * b) <= self.most_mm() {
-            true => self.apart_mm(&femur.pose, &tibia.pose),
-            false => f64::NAN,
-        }
+        let sd_mm = sqrt(a * a + b * b);
+        let apart_mm = self.apart_mm(&femur.pose, &tibia.pose);
+        let is_known = sd_mm <= self.most_mm() || apart_mm.abs() > self.most_mm() + FAR * sd_mm;
+        if is_known { apart_mm } else { f64::NAN }
     }
 
     /// How far they may: beyond it a condyle does not bear on the tray but beside it. A femoral component that is wider than its tray
@@ -138,12 +142,11 @@ impl Middles {
     }
 
     /// What is told of each frame of a film, by what [`Self::apart_mm`] gave; what is no number is not known. Where the median tells
-    /// it, it is told of all that are known: mirrored films are mirrored as a whole. `sorted` is working memory of as many numbers.
+    /// it, it is told of all: mirrored films are mirrored as a whole. `sorted` is working memory of as many numbers.
     pub fn judge(&self, apart: &[f64], sorted: &mut [f64], told: &mut [Option<Beside>]) {
         let median = median(apart, sorted).and_then(|mm| self.told(mm, true));
         for (told, &mm) in told.iter_mut().zip(apart) {
-            let own = || median.or_else(|| self.told(mm, false));
-            *told = mm.is_finite().then(own).flatten();
+            *told = median.or_else(|| self.told(mm, false));
         }
     }
 

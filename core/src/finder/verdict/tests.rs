@@ -1,4 +1,8 @@
 use super::*;
+use crate::finder::choice::Reason;
+use crate::math::{radians, rotation_by};
+use crate::pose::covariance::PoseCovariance;
+use crate::refine::Refined;
 use std::format;
 use std::string::ToString;
 
@@ -192,4 +196,68 @@ fn parts_of_an_outline_are_told_in_percent() {
     };
     let refused = refused.to_string();
     assert!(refused.contains("3.2 px, and 25 % of"), "{refused}");
+}
+
+/// Another pose turned by so many degrees, which leaves so many times as much, beside one of which a part lies beyond the frame and that the joint or the
+/// film chose.
+fn judged_beside(beyond: f64, deg: f64, times: f64) -> Verdict {
+    let candidate = |deg: f64, misfit_px: f64| {
+        let rotation = rotation_by(&[0.0, radians(deg), 0.0]);
+        let pose = Pose {
+            rotation,
+            ..Pose::IDENTITY
+        };
+        Candidate {
+            pose,
+            start: pose,
+            located: None,
+            refined: Some(Refined {
+                loss: misfit_px * misfit_px / 2.0,
+                ..Refined::at(pose)
+            }),
+            covariance: Some(PoseCovariance {
+                matrix: [[0.0; 6]; 6],
+            }),
+            fit: Fit {
+                size_px: 150.0,
+                met: 1.0,
+                known: 1.0,
+                misfit_px,
+                beyond,
+                ..Fit::default()
+            },
+        }
+    };
+    let candidates = [candidate(0.0, 0.5), candidate(deg, 0.5 * times)];
+    let choice = Choice {
+        index: 0,
+        reason: Reason::Film { saved_deg: 40.0 },
+        open: None,
+        no_knee_deg: None,
+    };
+    judge(&candidates, &choice, &Limits::USUAL).expect("some")
+}
+
+#[test]
+fn where_an_end_is_cut_off_joint_and_film_alone_make_nothing_good() {
+    for (beyond, deg, times, is_good) in [
+        (0.21, 10.0, 1.29, false),
+        (0.21, -10.0, 0.8, false),
+        // A whole outline, one pose as noise has it, one that the residual rules out.
+        (0.2, 10.0, 1.29, true),
+        (0.21, 3.9, 1.0, true),
+        (0.21, 10.0, 1.31, true),
+    ] {
+        let verdict = judged_beside(beyond, deg, times);
+        assert_eq!(verdict == Verdict::Good, is_good, "{beyond} {deg} {times}");
+        if !is_good {
+            assert!(verdict.to_string().contains("10 degrees away"), "{verdict}");
+        }
+    }
+    // Of less than six tenths nothing is good, whatever fits.
+    assert!(matches!(
+        judged_beside(0.41, 10.0, 9.0),
+        Verdict::Doubtful(Doubt::Unknown { .. })
+    ));
+    assert_eq!(judged_beside(0.39, 10.0, 9.0), Verdict::Good);
 }

@@ -107,11 +107,11 @@ fn a_lax_knee_is_not_taken_for_a_mirrored_one() {
 fn a_film_is_told_by_its_median_and_a_frame_by_itself() {
     let (middles, most) = middles();
     let mut apart = vec![most + 8.0; 5];
-    // One that looks sound and one that is not known.
+    // One that looks sound and one that is not known: mirrored films are mirrored as a whole.
     (apart[1], apart[3]) = (0.0, f64::NAN);
     let all = told(&middles, &apart);
     let known: Vec<bool> = all.iter().map(Option::is_some).collect();
-    assert_eq!(known, [true, true, true, false, true]);
+    assert_eq!(known, [true; 5]);
     assert!(
         all.iter()
             .flatten()
@@ -271,4 +271,18 @@ fn both_depths_together_must_be_known_to_what_a_knee_allows() {
     assert_eq!(known(0.59, 0.8), Some(middles.apart_mm(&femur, &tibia)));
     assert_eq!([known(0.61, 0.8), known(0.8, 0.61)], [None; 2]);
     assert!(known(0.99, 0.0).is_some() && known(0.0, 1.01).is_none());
+    // What is farther off than depth may be is told, however badly that is known.
+    let off = |times: f64| {
+        let (femur, tibia) = knee([30.0, 0.0, 0.0], times * most);
+        let lying = |pose| Lying {
+            pose,
+            depth_sd_mm: 2.0 * most,
+        };
+        middles.known_mm(&lying(femur), &lying(tibia)).is_finite()
+    };
+    // Both together are known to 2.83 times what is allowed.
+    assert_eq!(
+        [off(12.3), off(-12.3), off(12.4), off(-12.4)],
+        [false, false, true, true]
+    );
 }
