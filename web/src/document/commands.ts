@@ -205,6 +205,12 @@ export function setCalibration(calibration: Calibration | null): Command {
   };
 }
 
+/** What a click laid as the outline of another model of the component is none of this one's. */
+function withoutSilhouettes(doc: Doc, name: ComponentName): Doc {
+  const cells = doc.cells.map((cell, _, component) => (component === name && isSilhouette(cell.outline) ? ofOutline(cell, null) : cell));
+  return { ...doc, cells };
+}
+
 /** Axes are those of a file: with another one they are found again. What a study said before its model came is of this one. */
 export function setModel(name: ComponentName, model: ModelReference): Command {
   const { label, apply } = onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({
@@ -216,7 +222,7 @@ export function setModel(name: ComponentName, model: ModelReference): Command {
   const isOther = (there: ModelReference | null) => there !== null && there.sha256 !== model.sha256;
   return {
     label,
-    apply: (doc) => apply(isOther(doc.components[name].model) ? foundAnew(doc, name) : doc),
+    apply: (doc) => apply(isOther(doc.components[name].model) ? withoutSilhouettes(foundAnew(doc, name), name) : doc),
   };
 }
 

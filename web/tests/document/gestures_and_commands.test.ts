@@ -71,3 +71,24 @@ describe('poses that a hand set', () => {
     expect(chosenCandidate(cellOf(store.doc, 'f', 'femur'))?.pose.x).toBe(7);
   });
 });
+
+describe('the outline that a click laid as a model has it', () => {
+  it('goes with that model, and no other outline does', () => {
+    const store = begun();
+    store.perform(setModel('femur', { name: 'a', sha256: 'a' }));
+    const outline = { ...cellOf(store.doc, 'f', 'femur').outline!, laidBy: 'click' } as const;
+    for (const place of [FEMUR, TIBIA]) store.perform({ label: 'click', apply: (doc) => withCell(doc, place, { outline, result: null, resultOf: null }) });
+    const outlines = () => [FEMUR, TIBIA].map(({ component }) => cellOf(store.doc, 'f', component).outline !== null);
+    store.perform(setModel('femur', { name: 'copy of a', sha256: 'a' }));
+    expect(outlines()).toEqual([true, true]);
+    store.perform(setModel('femur', { name: 'b', sha256: 'b' }));
+    expect(outlines()).toEqual([false, true]);
+    store.undo();
+    expect(outlines()).toEqual([true, true]);
+    // One that a hand traced is of the frame, whatever the model.
+    const { laidBy: _, ...traced } = outline;
+    store.perform({ label: 'trace', apply: (doc) => withCell(doc, FEMUR, { outline: traced, result: null, resultOf: null }) });
+    store.perform(setModel('femur', { name: 'b', sha256: 'b' }));
+    expect(outlines()).toEqual([true, true]);
+  });
+});
