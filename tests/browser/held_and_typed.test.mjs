@@ -19,6 +19,7 @@ pageTest('hands on the keyboard', async (page, t) => {
   await step(page, t, 'a calibration that is opened from its sheet fills the fields', () => openedFromTheSheet(page));
   await step(page, t, 'arrows in an open sheet leave the model where it is', () => arrowsInASheet(page, stage));
   await step(page, t, 'Y that is held says yes once', () => heldKey(page, stage));
+  await step(page, t, 'Esc in a note leaves the note, and no tool', () => noteLeft(page, stage));
 });
 
 /** @param {Page} page */
@@ -80,4 +81,17 @@ async function heldKey(page, stage) {
   for (let k = 0; k < 4; k++) await page.keyboard.down('y');
   await page.keyboard.up('y');
   await page.getByRole('button', { name: 'Checked', exact: true, pressed: true }).waitFor();
+}
+
+/** @param {Page} page @param {Stage} stage */
+async function noteLeft(page, stage) {
+  await stage.canvas.focus();
+  await page.keyboard.press('a');
+  await page.getByRole('button', { name: 'Refine from here' }).waitFor();
+  await page.keyboard.press('Shift+j');
+  await page.keyboard.type('rim');
+  await page.keyboard.press('Escape');
+  await until(() => stage.canvas.evaluate((canvas) => canvas === document.activeElement), (focused) => focused, 'the stage to be in hand');
+  await drawn(page);
+  assert(await page.getByRole('button', { name: 'Refine from here' }).isVisible());
 }

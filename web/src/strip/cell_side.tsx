@@ -69,7 +69,10 @@ function NoteField({ state, note }: { state: State; note: string }) {
   }, [actions]);
   const label = texts.work.noteLabel(state.ui.frameIndex + 1, texts.component[state.ui.component]);
   const leave = (event: KeyboardEvent) => {
-    if (event.key === 'Enter') actions.stage?.focus();
+    if (event.key !== 'Enter' && event.key !== 'Escape') return;
+    // Who leaves the note means no tool.
+    event.stopPropagation();
+    actions.stage?.focus();
   };
   return (
     <input
