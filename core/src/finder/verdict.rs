@@ -220,7 +220,7 @@ impl fmt::Display for Doubt {
             }
             Self::Behind { mm } => write!(
                 f,
-                "it would lie {} mm behind the detector: is the calibration of frames of another size, or the model in another unit?",
+                "it would lie {} mm behind the detector: is the calibration of frames of another size, the model in another unit, or a part of the outline missing?",
                 Decimal::new(mm, 0)
             ),
             Self::ImplausibleSize { mm } => write!(
