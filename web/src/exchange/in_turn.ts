@@ -9,6 +9,11 @@ interface Queue {
 
 const queues = new WeakMap<Store, Queue>();
 
+/** Is anything being opened, so that what comes now waits? */
+export function isOpening(store: Store): boolean {
+  return queues.has(store);
+}
+
 /**
  * Opens what came after what came before it: whether files belong to the work is told by what that has. All that waits is for the work that was on
  * view when the first of it came, or that this brought. True where that is on view in the end.

@@ -1,6 +1,6 @@
 import { holdModel } from './bring_files';
 import { ofOneStudy, withoutContested } from './contested';
-import { inTurn } from './in_turn';
+import { inTurn, isOpening } from './in_turn';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
 import { ended } from '../texts/sentences';
@@ -39,6 +39,7 @@ import type { WorkOnView } from './work_on_view';
  * the others are opened all the same. True where the work that they are for is still on view.
  */
 export function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<boolean> {
+  if (isOpening(services.store)) services.store.say('info', later.opening.waits(fewNames(files)));
   return inTurn(services.store, (work) => openAll(services, work, files, beginVideo));
 }
 

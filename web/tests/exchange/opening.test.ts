@@ -103,6 +103,7 @@ describe('frames that are still on their way', () => {
     const go = held('a2.png');
     const study = (name: string) => [at(`/camera_${name}.txt`), at(`/femur_${name}.stl`), at(`/${name}1.png`), at(`/${name}2.png`)];
     const openings = [open(...study('a')), open(...study('b'))];
+    expect(said()).toMatch(/^camera_b\.txt.*: opened as soon as what came before is\.$/);
     await begun();
     go();
     await Promise.all(openings);
