@@ -114,6 +114,6 @@ function remarksOf(doc: Doc): string[] {
     return frames.length > 0 ? [`${SAID[fault]}: ${inRuns(frames, Infinity)} (${frames.length} of ${doc.frames.length}).`] : [];
   });
   const assumed = COMPONENT_NAMES.filter((component) => !doc.components[component].axes && knownAxes(doc.components[component]));
-  if (doc.unread.length > 0) remarks.unshift(`Frames that could not be read, and are not counted: ${doc.unread.join(', ')}.`);
+  if (doc.unread.length > 0) remarks.unshift(`Frames that could not be read: ${doc.unread.join(', ')}. They are not counted, neither in numbers of frames nor in times.`);
   return [...remarks, ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
 }

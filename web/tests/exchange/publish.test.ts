@@ -69,7 +69,7 @@ describe('what is published', () => {
     for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f0', component }));
     const { settings, remarks } = await publishedFilm(store.doc, numbers(3));
     expect(settings).toContainEqual(['poses of the femur', 'refined: 2 of 3; by hand: 1 of 3']);
-    expect(remarks[0]).toBe('Frames that could not be read, and are not counted: 0003.png.');
+    expect(remarks[0]).toBe('Frames that could not be read: 0003.png. They are not counted, neither in numbers of frames nor in times.');
     expect(remarks).toContain('Frames with a pose that was not refined: 2 (1 of 3).');
     expect(remarks).toContain('Frames that no person has checked: 2\u20133 (2 of 3).');
   });
