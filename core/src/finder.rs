@@ -39,4 +39,6 @@ pub use first::{FIRST_POSES, FirstPoses, first_poses};
 pub use flipped::{FlippedFit, FlippedKnee, FlippedLooks};
 pub use memory::FinderMemory;
 pub use usual::{FilmMisfits, look_beyond};
-pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};
+pub use verdict::{
+    Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit, judge_one,
+};

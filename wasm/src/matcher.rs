@@ -317,8 +317,8 @@ impl Matcher {
             }
             let chosen = Chosen::of(&found, around);
             let mut ranked = Vec::new();
-            for candidate in &found.candidates {
-                ranked.push(model.ranked(candidate, &camera, silhouette)?);
+            for index in 0..found.candidates.len() {
+                ranked.extend(model.ranked(&found.candidates, index, &camera, silhouette)?);
             }
             let offered = offered(&ranked, chosen.as_ref());
             Ok(Match {

@@ -130,20 +130,24 @@ impl WorkingModel {
         })
     }
 
-    /// A candidate as the page reads it.
+    /// One of the candidates as the page reads it; nothing where there are not so many.
     ///
     /// # Errors
     /// The core's sentence about the model.
     pub(crate) fn ranked(
         &mut self,
-        candidate: &Candidate,
+        candidates: &[Candidate],
+        index: usize,
         camera: &Camera,
         silhouette: &Silhouette<'_>,
-    ) -> Result<Ranked, JsError> {
+    ) -> Result<Option<Ranked>, JsError> {
+        let Some(candidate) = candidates.get(index) else {
+            return Ok(None);
+        };
         let located = candidate
             .located
             .ok_or_else(|| JsError::new("the library did not lead to this pose"))?;
-        Ok(Ranked {
+        Ok(Some(Ranked {
             located: located.located,
             pose: candidate.pose,
             drawn: self.draw(&candidate.pose, camera, silhouette)?,
@@ -152,8 +156,8 @@ impl WorkingModel {
                 start: candidate.start,
             }),
             covariance: candidate.covariance,
-            judged: Some(Judged::of(candidate)),
-        })
+            judged: Judged::of(candidates, index),
+        }))
     }
 
     /// How uncertain a pose is; nothing where that is not known.

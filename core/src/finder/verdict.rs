@@ -321,15 +321,22 @@ pub fn contenders(candidates: &[Candidate]) -> Vec<RivalPose, CANDIDATES> {
 #[must_use]
 pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Option<Verdict> {
     let chosen = candidates.get(choice.index)?;
-    let open = choice.open.map(|OpenRival { index, .. }| index);
-    let open = open.or_else(|| other_of_a_part(candidates, choice.index));
-    let open = open.and_then(|index| {
+    let open = choice.open.and_then(|OpenRival { index, .. }| {
         let other = candidates.get(index)?;
         Some(Doubt::open(&chosen.pose, &other.pose, other.misfit()))
     });
-    let determined = chosen.refined.is_none() || chosen.covariance.is_some();
-    let alone = judge_fit(&chosen.fit, determined, limits);
+    let alone = judge_one(candidates, choice.index, limits)?;
     Some(alone.or_doubt(Doubt::no_knee(choice)).or_doubt(open))
+}
+
+/// The same before anything is chosen: how far one of the candidates is to be trusted at most. `None` where there are not so many.
+#[must_use]
+pub fn judge_one(candidates: &[Candidate], index: usize, limits: &Limits) -> Option<Verdict> {
+    let one = candidates.get(index)?;
+    let determined = one.refined.is_none() || one.covariance.is_some();
+    let alone = judge_fit(&one.fit, determined, limits);
+    let other = other_of_a_part(candidates, index).and_then(|other| candidates.get(other));
+    Some(alone.or_doubt(other.map(|other| Doubt::open(&one.pose, &other.pose, other.misfit()))))
 }
 
 /// Where an end of the component is beyond the frame, the best of the other poses that the residual does not rule out: joint and film tell the

@@ -1,6 +1,6 @@
 //! What is told of a pose: how it was found, how well it fits, how sure it is.
 
-use fluoropose::finder::{Candidate, Limits, Verdict, judge_fit};
+use fluoropose::finder::{Candidate, Limits, Verdict, judge_fit, judge_one};
 use fluoropose::locate::Located;
 use fluoropose::locate::rerank::Reranked;
 use fluoropose::pose::Pose;
@@ -27,7 +27,7 @@ pub(crate) struct Ranked {
     pub(crate) judged: Option<Judged>,
 }
 
-/// How well a pose fits by itself, whatever other poses do.
+/// How well a pose fits, whatever is chosen.
 #[derive(Clone, Copy)]
 pub(crate) struct Judged {
     /// By what candidates are compared ([`Candidate::misfit`]).
@@ -36,12 +36,11 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    pub(super) fn of(candidate: &Candidate) -> Self {
-        let determined = candidate.refined.is_none() || candidate.covariance.is_some();
-        Self {
-            misfit: candidate.misfit(),
-            verdict: judge_fit(&candidate.fit, determined, &Limits::USUAL),
-        }
+    pub(super) fn of(candidates: &[Candidate], index: usize) -> Option<Self> {
+        Some(Self {
+            misfit: candidates.get(index)?.misfit(),
+            verdict: judge_one(candidates, index, &Limits::USUAL)?,
+        })
     }
 }
 

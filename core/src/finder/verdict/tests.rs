@@ -235,7 +235,10 @@ fn judged_beside(beyond: f64, deg: f64, times: f64) -> Verdict {
         open: None,
         no_knee_deg: None,
     };
-    judge(&candidates, &choice, &Limits::USUAL).expect("some")
+    let verdict = judge(&candidates, &choice, &Limits::USUAL).expect("some");
+    // Whoever chooses anew among them later has that of each.
+    assert_eq!(judge_one(&candidates, 0, &Limits::USUAL), Some(verdict));
+    verdict
 }
 
 #[test]
