@@ -2,7 +2,7 @@ import { setModel } from '../document/commands';
 import type { Services } from '../jobs/services';
 import type { ComponentName } from '../terms/component';
 import { unitOf } from '../terms/length_unit';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 import { holdModel } from './bring_files';
 import { stlOf } from './stl';
 
@@ -22,7 +22,7 @@ export async function takeInMillimetres(services: Services, component: Component
   if (store.doc.components[component].model?.sha256 !== model.sha256) return;
   const unit = unitOf(unitMm);
   store.perform(setModel(component, { name, sha256: asset.sha256, ...(unit && { writtenFrom: { name: model.name, unit, sha256: model.sha256 } }) }));
-  store.say('info', texts.models.taken(model.name, name, unitMm));
+  store.say('info', later.models.taken(model.name, name, unitMm));
 }
 
 function inMillimetres(name: string): string {

@@ -303,7 +303,7 @@ async function openModel(services: Services, work: WorkOnView, file: Incoming): 
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
   const named = texts.said.asModel(file.name, texts.component[component]) + droppedSince(before, store.doc);
   // What a person or a name says is done, and what the shape says is said.
-  const opened = shaped === otherThan(component) ? texts.models.besides(named, texts.models.shape[component]) : named;
+  const opened = shaped === otherThan(component) ? later.models.besides(named, later.models.shape[component]) : named;
   return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));
 }
 
@@ -316,7 +316,7 @@ async function openStudy(services: Services, { name, study }: StudyFile): Promis
     const { takeInMillimetres } = await import('./model_unit');
     await takeInMillimetres(services, component, UNITS_MM[unit]);
   }
-  return texts.study.opened(study.name || name);
+  return later.study.opened(study.name || name);
 }
 
 async function openLibrary({ store, assets, checkLibrary }: Services, work: WorkOnView, file: Incoming): Promise<string> {

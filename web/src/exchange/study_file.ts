@@ -6,6 +6,7 @@ import { type Axes, DISPLAYS, NOTHING_STATED, type StatedFilm } from '../documen
 import { directionsFromWords } from '../geometry/axes';
 import type { ComponentName } from '../terms/component';
 import { LENGTH_UNITS } from '../terms/length_unit';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 
 const readStudyText = object({
@@ -32,7 +33,7 @@ const readStudyText = object({
 
 /** Throws a sentence that names the place. Parts that are neither femur nor tibia are left to the laboratory. */
 export function readStudy(content: string): Study {
-  const { name, side, frames_per_s: rate, frames, calibration, film, component: parts } = readStudyText(parsed(content), texts.study.place);
+  const { name, side, frames_per_s: rate, frames, calibration, film, component: parts } = readStudyText(parsed(content), later.study.place);
   const files = { ...(frames !== null && { frames }), ...(calibration !== null && { calibration }) };
   return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart), ...files };
 }
@@ -42,7 +43,7 @@ type StudyText = ReturnType<typeof readStudyText>;
 /** As the command line takes it: with curvature and blur nothing is estimated, otherwise what is left out is. */
 function statedBy({ curvature, blur_px: blur, display }: NonNullable<StudyText['film']>, parts: StudyText['component']): StatedFilm {
   if ((curvature !== null && (blur === null || display !== null || curvature < 0)) || (blur !== null && blur <= 0)) {
-    throw new ReadError(texts.study.wrongFilm);
+    throw new ReadError(later.study.wrongFilm);
   }
   if (curvature === null || blur === null) return { ...NOTHING_STATED, display, blur };
   const of = (component: ComponentName) => parts.find((part) => roleOf(part) === component)?.attenuation ?? null;
@@ -72,7 +73,7 @@ function readPart({ model, unit, reference, axes, nominal, distance_mm: distance
 
 function readStudyAxes(words: string, component: ComponentName): Axes {
   const directions = directionsFromWords(words);
-  if (!directions) throw new ReadError(texts.study.wrongAxes(texts.component[component], words));
+  if (!directions) throw new ReadError(later.study.wrongAxes(texts.component[component], words));
   return { directions, from: 'study', told: 'all' };
 }
 
@@ -81,6 +82,6 @@ function parsed(content: string): unknown {
     return parse(content);
   } catch (error) {
     const [first = ''] = (error as Error).message.split('\n');
-    throw new ReadError(texts.study.notRead(first));
+    throw new ReadError(later.study.notRead(first));
   }
 }

@@ -58,7 +58,7 @@ export function asTheStudyMeans(found: StudyFile, files: readonly Recognised[], 
   if (unnamed.length > 0) leftOut.push(later.opening.notNamed(unnamed.length, fewNames(unnamed), texts.listed(writtenIn(found.study))));
   const otherPoses = near.filter((file) => file.kind === 'poses' && !meant.has(file));
   const isReferenceHere = near.some((file) => file.kind === 'poses' && meant.has(file));
-  if (isReferenceHere && otherPoses.length > 0) leftOut.push(texts.study.otherPoses(otherPoses.length, fewNames(otherPoses)));
+  if (isReferenceHere && otherPoses.length > 0) leftOut.push(later.study.otherPoses(otherPoses.length, fewNames(otherPoses)));
   const isOut = (file: Recognised) => unnamed.includes(file) || (isReferenceHere && otherPoses.includes(file));
   return near.filter((file) => !isOut(file)).map((file) => ({ ...file, component: file.component ?? meant.get(file) }));
 }
@@ -88,6 +88,6 @@ export function framesMeant(found: StudyFile | null, images: readonly Recognised
   const meant = there.length > 0 ? there : images.filter((file) => `/${parentOf(pathOf(file))}`.endsWith(`/${folders[1]}`));
   if (meant.length === 0 || meant.length === images.length) return images;
   const others = images.filter((file) => !meant.includes(file));
-  leftOut.push(texts.study.otherImages(others.length, fewNames(others)));
+  leftOut.push(later.study.otherImages(others.length, fewNames(others)));
   return meant;
 }

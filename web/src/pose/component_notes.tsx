@@ -6,6 +6,7 @@ import { takeInMillimetres } from '../exchange/model_unit';
 import { sentenceOf } from '../jobs/services';
 import type { ComponentName } from '../terms/component';
 import { misplacedModels } from '../results/misplaced';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { Icon } from '../controls/icons';
@@ -29,7 +30,7 @@ function MisplacedCard({ state }: { state: State }) {
   const { components, canSwap } = misplacedModels(doc, (sha256) => studio.shapeOf(sha256));
   const key = `shape ${components.map((component) => doc.components[component].model?.sha256).join(' ')}`;
   if (components.length === 0 || state.ui.dismissed.includes(key)) return null;
-  const words = texts.models;
+  const words = later.models;
   const said = components.map((component) => words.misplaced(doc.components[component].model?.name ?? '', words.shape[component], texts.component[component]));
   return (
     <section class="card note" aria-label={words.card}>
@@ -51,7 +52,7 @@ function RemarksCard({ state, component }: { state: State; component: ComponentN
   const { model } = state.history.present.components[component];
   const remarks = model ? studio.remarksOn(model.sha256) : [];
   if (!model || remarks.length === 0 || state.ui.dismissed.includes(model.sha256)) return null;
-  const words = texts.models;
+  const words = later.models;
   return (
     <section class="card note" aria-label={words.card}>
       <p class="card-note">{words.remarks(model.name, remarks)}</p>
@@ -78,8 +79,8 @@ export function UnitButtons({ component, sha256 }: { component: ComponentName; s
   return (
     <div class="card-buttons">
       {units.map((mm) => (
-        <button key={mm} type="button" class="button small primary" title={texts.models.isInTitle(mm)} onClick={() => void take(mm)}>
-          {texts.models.isIn(mm)}
+        <button key={mm} type="button" class="button small primary" title={later.models.isInTitle(mm)} onClick={() => void take(mm)}>
+          {later.models.isIn(mm)}
         </button>
       ))}
     </div>
@@ -88,7 +89,7 @@ export function UnitButtons({ component, sha256 }: { component: ComponentName; s
 
 /** Poses of a component without a model are taken in their own axes, and that is said. */
 function questionOf(about: Component, isPosed: boolean): ((component: string) => string) | null {
-  const { cardText } = texts.axes;
+  const { cardText } = later.axes;
   if (isAssumed(about)) return isPosed ? cardText.assumed : null;
   if (!about.axes || about.axes.told === 'all') return null;
   return about.axes.told === 'not the front' ? cardText.front : cardText.axes;
@@ -99,7 +100,7 @@ function AxesCard({ state, component }: { state: State; component: ComponentName
   const { store } = useApp().services;
   const doc = state.history.present;
   const about = doc.components[component];
-  const words = texts.axes;
+  const words = later.axes;
   const say = questionOf(about, doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)) !== null));
   if (!say) return null;
   return (

@@ -2,14 +2,14 @@ import type { Axes, Doc } from '../document/types';
 import { type Directions, opposite, wordOf, wordsOf } from '../geometry/axes';
 import type { Vector } from '../geometry/pose_motion';
 import type { ComponentName } from '../terms/component';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 
 type Side = Doc['side'];
 
 /** Anterior, superior, and lateral where the side of the body tells which way that is, else right. */
 export function namedDirections(directions: Directions, side: Side): readonly { readonly name: string; readonly direction: Vector }[] {
   const [anterior, superior, right] = directions;
-  const { arrows, lateral, right: toTheRight } = texts.axes;
+  const { arrows, lateral, right: toTheRight } = later.axes;
   return [
     { name: arrows.anterior, direction: anterior },
     { name: arrows.superior, direction: superior },
@@ -20,8 +20,8 @@ export function namedDirections(directions: Directions, side: Side): readonly { 
 /** Arrows with their names; a name that may be wrong asks. None where the shape tells lines alone. */
 export function namedArrows({ directions, told }: Axes, side: Side): readonly { readonly name: string; readonly direction: Vector }[] {
   if (told !== 'all' && told !== 'not the front') return [];
-  const isSure = (name: string) => told === 'all' || name === texts.axes.arrows.superior;
-  return namedDirections(directions, side).map(({ name, direction }) => ({ name: isSure(name) ? name : texts.axes.perhaps(name), direction }));
+  const isSure = (name: string) => told === 'all' || name === later.axes.arrows.superior;
+  return namedDirections(directions, side).map(({ name, direction }) => ({ name: isSure(name) ? name : later.axes.perhaps(name), direction }));
 }
 
 /** "x anterior, y superior, -z lateral". */
@@ -29,7 +29,7 @@ export function axesInWords(directions: Directions, side: Side): string {
   const named = namedDirections(directions, side);
   const third = named[2]!.name;
   const [anterior = '', superior = '', other = ''] = named.map(({ direction }) => shownWord(direction));
-  return (wordsOf(directions) ? texts.axes.words : texts.axes.turned)(anterior, superior, other, third);
+  return (wordsOf(directions) ? later.axes.words : later.axes.turned)(anterior, superior, other, third);
 }
 
 function shownWord(direction: Vector): string {
@@ -39,7 +39,7 @@ function shownWord(direction: Vector): string {
 
 /** A sentence or two: what the axes are, who said so, and what is not known of them. */
 export function axesSentence(axes: Axes | null, component: ComponentName, side: Side, hasModel: boolean): string {
-  const words = texts.axes;
+  const words = later.axes;
   if (!axes) return hasModel ? words.finding : words.assumed;
   switch (axes.told) {
     case 'all':

@@ -7,6 +7,7 @@ import { rotationOf } from '../geometry/pose_motion';
 import { axesSentence, namedArrows } from '../results/axes_words';
 import { facingByFilm, type Facing } from '../results/facing';
 import { type ComponentName, titleOf } from '../terms/component';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { meshOf } from '../commands/model_in_hand';
@@ -20,7 +21,7 @@ export function AxesSection({ state, component }: { state: State; component: Com
   const doc = state.history.present;
   const { axes, model } = doc.components[component];
   const mesh = meshOf(doc, component, studio);
-  const words = texts.axes;
+  const words = later.axes;
   const sentence = axesSentence(axes, component, doc.side, model !== null);
   const say = (axes: Axes | null) => store.perform(setAxes(component, axes));
   return (
@@ -44,7 +45,7 @@ interface FrontQuestionProps {
 
 /** Asked of a person; where the film knows an answer, that is said, and not taken by itself. */
 function FrontQuestion({ facing, other, onAnswer }: FrontQuestionProps) {
-  const words = texts.axes;
+  const words = later.axes;
   return (
     <div class="sheet-buttons" role="group" aria-label={words.question}>
       <span class="sheet-text">{words.question}</span>
@@ -81,7 +82,7 @@ function AxesPicture({ component, axes, mesh, side, sentence }: AxesPictureProps
     // A little from above and from the front, so that all three are seen.
     view.turn(-25, 20);
   }, [view, mesh, drawingKey([placed])]);
-  const words = texts.axes;
+  const words = later.axes;
   return (
     <>
       <canvas
@@ -111,7 +112,7 @@ function StatedAxes({ axes, onSay, canReset }: StatedAxesProps) {
   const [anterior, setAnterior] = useState<AxisWord | null>(known && wordOf(known[0]));
   const [superior, setSuperior] = useState<AxisWord | null>(known && wordOf(known[1]));
   const directions = anterior && superior && directionsOf(anterior, superior);
-  const words = texts.axes;
+  const words = later.axes;
   const same = axes?.told === 'all' && JSON.stringify(axes.directions) === JSON.stringify(directions);
   return (
     <form

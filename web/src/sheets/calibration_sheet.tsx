@@ -36,7 +36,7 @@ function Typed({ state }: { state: State }) {
       const size = frame ?? { width: 1024, height: 1024 };
       const text = studio.calibrationText(typed.distance, typed.offsetX, typed.offsetY, typed.pitch, size);
       const before = store.doc;
-      store.perform(commands.setCalibration({ name: texts.calibration.typedName, text }));
+      store.perform(commands.setCalibration({ name: later.calibration.typedName, text }));
       const dropped = droppedIn(before, store.doc);
       if (dropped > 0) store.say('info', asSentence(later.opening.dropped(dropped)));
       setTrouble('');
@@ -57,13 +57,13 @@ function Typed({ state }: { state: State }) {
       <p class="sheet-text">{describe(state, facts)}</p>
       <Doubts key={cameraKey(services)} />
       <div class="fields">
-        <NumberField label={texts.calibration.distance} unit="mm" value={typed.distance} onChange={set('distance')} />
-        <NumberField label={texts.calibration.pitch} unit="mm" value={typed.pitch} onChange={set('pitch')} />
-        <NumberField label={texts.calibration.pointX} unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
-        <NumberField label={texts.calibration.pointY} unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
+        <NumberField label={later.calibration.distance} unit="mm" value={typed.distance} onChange={set('distance')} />
+        <NumberField label={later.calibration.pitch} unit="mm" value={typed.pitch} onChange={set('pitch')} />
+        <NumberField label={later.calibration.pointX} unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
+        <NumberField label={later.calibration.pointY} unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
       </div>
       <p class="sheet-text quiet">
-        {texts.calibration.meaning} {frame ? texts.calibration.frameSize(frame.width, frame.height) : ''}
+        {later.calibration.meaning} {frame ? later.calibration.frameSize(frame.width, frame.height) : ''}
       </p>
       <StatedGeometry state={state} onDistance={set('distance')} onPitch={set('pitch')} />
       <p class="sheet-trouble" role="alert">
@@ -71,10 +71,10 @@ function Typed({ state }: { state: State }) {
       </p>
       <div class="sheet-buttons">
         <button type="submit" class="button primary">
-          {texts.calibration.use}
+          {later.calibration.use}
         </button>
         <button type="button" class="button" onClick={() => void actions.openPicked()}>
-          {texts.calibration.open}
+          {later.calibration.open}
         </button>
         <button type="button" class="button" onClick={() => store.show({ popover: 'calibrate' })}>
           {texts.calibrate.open}
@@ -113,9 +113,9 @@ function factsOf(state: State, read: (text: string, frame: ReturnType<typeof cur
 
 function describe(state: State, facts: CalibrationFacts | null): string {
   const { calibration } = state.history.present;
-  if (!calibration || !facts) return texts.calibration.none;
-  if (!facts.camera) return texts.calibration.nameOnly(calibration.name);
+  if (!calibration || !facts) return later.calibration.none;
+  if (!facts.camera) return later.calibration.nameOnly(calibration.name);
   const { fx, fy, cx, cy } = facts.camera;
   const focal = fx === fy ? fx.toFixed(1) : `${fx.toFixed(1)} x ${fy.toFixed(1)}`;
-  return texts.calibration.facts(calibration.name, focal, cx.toFixed(1), cy.toFixed(1));
+  return later.calibration.facts(calibration.name, focal, cx.toFixed(1), cy.toFixed(1));
 }

@@ -9,6 +9,7 @@ import { NumberField } from '../controls/number_field';
 import { Segments } from '../controls/segments';
 import { UnitButtons } from '../pose/component_notes';
 import { asSentence } from '../texts/sentences';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 
 /** A component's model and library. */
@@ -48,7 +49,7 @@ export function ComponentSheet({ state, component }: { state: State; component: 
 function Remarks({ remarks }: { remarks: readonly string[] }) {
   if (remarks.length === 0) return null;
   return (
-    <ul class="model-remarks" aria-label={texts.models.card}>
+    <ul class="model-remarks" aria-label={later.models.card}>
       {remarks.map((remark) => (
         <li key={remark}>{asSentence(remark)}</li>
       ))}

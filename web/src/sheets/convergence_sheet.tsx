@@ -3,7 +3,7 @@ import { chosenCandidate } from '../document/types';
 import type { ConvergenceStep } from '../workers/protocol/pose';
 import { useApp } from '../commands/app';
 import { formatNumber } from '../texts/numbers';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 
 /** How refinement came to the pose on view: what remains between the outlines, drawing by drawing. */
 export function ConvergenceSheet({ state }: { state: State }) {
@@ -11,27 +11,27 @@ export function ConvergenceSheet({ state }: { state: State }) {
   const cell = currentCell(state);
   const candidate = chosenCandidate(cell);
   const trace = convergence.of(candidate);
-  if (candidate?.residual == null) return <p class="sheet-body">{texts.convergence.none}</p>;
+  if (candidate?.residual == null) return <p class="sheet-body">{later.convergence.none}</p>;
   if (!trace) {
     const started = poser.detail(cell.outline, candidate)?.start ?? null;
-    return <p class="sheet-body">{started ? texts.convergence.following : texts.convergence.refining}</p>;
+    return <p class="sheet-body">{started ? later.convergence.following : later.convergence.refining}</p>;
   }
-  if ('refusal' in trace) return <p class="sheet-body">{texts.convergence.refused(trace.refusal)}</p>;
+  if ('refusal' in trace) return <p class="sheet-body">{later.convergence.refused(trace.refusal)}</p>;
   return <Trace steps={trace.steps} />;
 }
 
 function Trace({ steps }: { steps: readonly ConvergenceStep[] }) {
   const last = steps.at(-1);
-  if (!last) return <p class="sheet-body">{texts.convergence.noStep}</p>;
+  if (!last) return <p class="sheet-body">{later.convergence.noStep}</p>;
   return (
     <div class="sheet-body">
-      <p class="sheet-text">{texts.convergence.summary(steps.length, last.renders)}</p>
+      <p class="sheet-text">{later.convergence.summary(steps.length, last.renders)}</p>
       <Chart steps={steps} />
-      <div class="trace-scroll" tabIndex={0} role="region" aria-label={texts.convergence.region}>
-        <table class="trace" aria-label={texts.convergence.table}>
+      <div class="trace-scroll" tabIndex={0} role="region" aria-label={later.convergence.region}>
+        <table class="trace" aria-label={later.convergence.table}>
           <thead>
             <tr>
-              {texts.convergence.columns.map((text) => (
+              {later.convergence.columns.map((text) => (
                 <th key={text} scope="col">
                   {text}
                 </th>
@@ -42,7 +42,7 @@ function Trace({ steps }: { steps: readonly ConvergenceStep[] }) {
             {steps.map((step) => (
               <tr key={step.renders}>
                 {cellsOf(step).map((text, at) => (
-                  <td key={texts.convergence.columns[at]}>{text}</td>
+                  <td key={later.convergence.columns[at]}>{text}</td>
                 ))}
               </tr>
             ))}
@@ -72,17 +72,17 @@ function Chart({ steps }: { steps: readonly ConvergenceStep[] }) {
   const decades = Array.from({ length: high - low + 1 }, (_, at) => low + at);
   const [first, last] = [steps[0]?.residual ?? 0, steps.at(-1)?.residual ?? 0];
   return (
-    <svg class="trace-chart" viewBox={`0 0 ${CHART.width} ${CHART.height}`} role="img" aria-label={texts.convergence.chart(first.toFixed(2), last.toFixed(3), most)}>
+    <svg class="trace-chart" viewBox={`0 0 ${CHART.width} ${CHART.height}`} role="img" aria-label={later.convergence.chart(first.toFixed(2), last.toFixed(3), most)}>
       {decades.map((decade) => (
         <g key={decade}>
           <line x1={CHART.left} x2={CHART.width - 6} y1={y(decade)} y2={y(decade)} />
           <text x={CHART.left - 6} y={y(decade) + 4} text-anchor="end">
-            {texts.convergence.pixels(10 ** decade)}
+            {later.convergence.pixels(10 ** decade)}
           </text>
         </g>
       ))}
       <text x={CHART.width - 6} y={CHART.height - 2} text-anchor="end">
-        {texts.convergence.drawings(most)}
+        {later.convergence.drawings(most)}
       </text>
       <polyline points={points.map((point) => point.join(',')).join(' ')} />
       {points.map(([cx, cy]) => (

@@ -1,7 +1,6 @@
 import { currentFrame, type State } from '../document/store';
 import type { StatedGeometry as Stated } from '../workers/protocol/decode';
 import { later } from '../texts/later';
-import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
 const said = later.calibrate.stated;
@@ -62,8 +61,8 @@ function offersOf(stated: Stated | null, { onDistance, onPitch }: Takers): Offer
   const { detectorSpacing, pixelSpacing, pixelSpacingCalibration, scannedSpacing } = stated;
   const only = (sentence: string): Offer => ({ sentence, fill: null, what: '' });
   return [
-    ...spacing(detectorSpacing, said.detectorSpacing, texts.calibration.pitch, onPitch),
-    ...spacing(scannedSpacing, said.scannedSpacing, texts.calibration.pitch, onPitch),
+    ...spacing(detectorSpacing, said.detectorSpacing, later.calibration.pitch, onPitch),
+    ...spacing(scannedSpacing, said.scannedSpacing, later.calibration.pitch, onPitch),
     ...(pixelSpacing ? [only(said.pixelSpacing[pixelSpacingCalibration ?? 'plain'](shown(pixelSpacing)))] : []),
     ...distances(stated, onDistance),
   ];
@@ -75,7 +74,7 @@ function distances({ sourceToDetector, sourceToPatient, sourceToIsocentre, magni
     if (value !== null) offers.push({ sentence: sentence(String(value)), fill: null, what: '' });
   };
   if (sourceToDetector !== null) {
-    const what = texts.calibration.distance;
+    const what = later.calibration.distance;
     offers.push({ sentence: said.sourceToDetector(String(sourceToDetector)), fill: () => onDistance(sourceToDetector), what });
   }
   tell(sourceToPatient, said.sourceToPatient);

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { en } from '../../src/texts/en';
+import { later } from '../../src/texts/later';
 import { asSentence, ended } from '../../src/texts/sentences';
 
 describe('sentences', () => {
@@ -16,7 +17,7 @@ describe('sentences', () => {
   });
 
   it('of a model are told apart', () => {
-    expect(en.models.remarks('a.stl', ['one triangle was turned', 'the model is 0.1 across: is it in metres?'])).toBe(
+    expect(later.models.remarks('a.stl', ['one triangle was turned', 'the model is 0.1 across: is it in metres?'])).toBe(
       'a.stl: One triangle was turned. The model is 0.1 across: is it in metres?',
     );
   });

@@ -29,7 +29,7 @@ export function Needs({ needs }: { needs: MotionNeeds }) {
         <p class="joint-needs">
           {words[needs.what](texts.component[needs.component])}{' '}
           <button type="button" class="button small" aria-haspopup="dialog" onClick={() => store.show({ component: needs.component, popover: needs.component })}>
-            {texts.axes.look}
+            {later.axes.look}
           </button>
         </p>
       );
