@@ -121,7 +121,7 @@ impl Middles {
         dot(&self.across, &plate) - self.femur_mm
     }
 
-    /// The same where depths are known well enough to tell it: to what a knee allows, or where it is more by [`FAR`] standard deviations.
+    /// The same where depths are known well enough to tell it: to what a knee allows, or where it is more by four standard deviations.
     /// Else NaN.
     #[must_use]
     pub fn known_mm(&self, femur: &Lying, tibia: &Lying) -> f64 {
