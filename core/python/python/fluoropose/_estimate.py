@@ -303,8 +303,6 @@ def _on_frame(
     remarks = (*camera.seen(grey.shape[1], grey.shape[0]), *model.seen("model", role))
     with tempfile.TemporaryDirectory(prefix="fluoropose-", ignore_cleanup_errors=True) as folder:
         found = follow([grey], [part], camera, folder, clicks=clicks, metal=metal)[0]
-    darkest, brightest = grey.min(), grey.max()
-    blank = f"the frame has the grey value {darkest} everywhere: nothing is to be seen in it"
     settings = {
         "click": place,
         "nominal": part.nominal,
@@ -319,7 +317,7 @@ def _on_frame(
         sd=Pose(*map(float, found.sd[0])),
         covariance=found.covariance[0],
         status=found.verdict[0],
-        because=blank if darkest == brightest else found.because[0],
+        because=found.because[0],
         decided_by="",
         residual_px=float(found.misfit_px[0]),
         offset_px=float("nan"),

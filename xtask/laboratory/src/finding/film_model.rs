@@ -7,6 +7,7 @@ use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{
     Candidate, Limits, Verdict, correct_candidates, judge_fit, look_around, onto_target,
 };
+use fluoropose::image::blank::{BLANK, ONE_GREY, is_blank};
 use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
@@ -233,11 +234,10 @@ impl Filmed<'_> {
 
     /// Why a frame leads nowhere: that there is nothing in it, rather than that it fits nowhere.
     fn why(&self, frame: usize, error: &Error) -> String {
-        match self.sequence.only_grey(frame) {
-            Some(grey) => format!(
-                "the frame has the grey value {grey} everywhere: nothing is to be seen in it; give the frame that was traced, or leave it out"
-            ),
-            None => format!("{error:#}"),
+        let blank = self.see(frame, None, |_, image| Ok(is_blank(image.frame, ONE_GREY)));
+        match blank {
+            Ok(true) => BLANK.to_owned(),
+            _ => format!("{error:#}"),
         }
     }
 

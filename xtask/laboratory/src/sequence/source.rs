@@ -7,7 +7,7 @@ use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::image::grey::Grey;
 use fluoropose::image::mask::Mask;
-use fluoropose_decode::{GreyFrame, Pixels};
+use fluoropose_decode::GreyFrame;
 use rayon::prelude::*;
 
 use super::seen::Seen;
@@ -179,14 +179,6 @@ impl Sequence<'_> {
         })
     }
 
-    /// The grey value that a frame, from 0, has everywhere, where it has no other.
-    pub fn only_grey(&self, frame: usize) -> Option<u16> {
-        match &self.source.frames.as_ref()?.decode(frame).ok()?.pixels {
-            Pixels::U8(pixels) => only(pixels).map(u16::from),
-            Pixels::U16(pixels) => only(pixels),
-        }
-    }
-
     /// Calls `look` with a grey frame, from 0, in squares with sides of so many pixels, after the camera that saw it so and before what is not
     /// known of it.
     ///
@@ -215,11 +207,6 @@ impl Sequence<'_> {
             unknown.transpose()?.as_ref(),
         )
     }
-}
-
-fn only<T: Copy + PartialEq>(pixels: &[T]) -> Option<T> {
-    let (&first, others) = pixels.split_first()?;
-    others.iter().all(|&other| other == first).then_some(first)
 }
 
 fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec<MaskBuffer>> {
