@@ -8,7 +8,7 @@ import { COMPONENT_NAMES } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { FitFacts, OnFrame } from '../workers/protocol/by_hand';
-import { cameraOf, poseKey } from '../results/keys';
+import { cameraOf, poseKeyAt } from '../results/keys';
 import { flatten } from './poser';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { asJob, sentenceOf, type Services } from './services';
@@ -48,22 +48,15 @@ export class FromHere {
     const abort = (this.#abort = new AbortController());
     try {
       const { locks } = store.ui.hand;
-      const by = this.#by(place);
+      const key = poseKeyAt(store.doc, place);
       const { outline } = cellOf(store.doc, place.frameId, place.component);
       const fit = await this.#ask(place, start, locks, abort);
-      const isAsBefore = this.#by(place) === by && cellOf(store.doc, place.frameId, place.component).outline === outline;
+      const isAsBefore = poseKeyAt(store.doc, place) === key && cellOf(store.doc, place.frameId, place.component).outline === outline;
       if (!isAsBefore) return store.sayAt(place, 'info', texts.hand.said.changed);
       this.#take(place, start, fit);
     } catch (error) {
       if (!(error instanceof Aborted)) store.sayAt(place, 'error', sentenceOf(error));
     }
-  }
-
-  /** With which model and calibration. */
-  #by({ frameId, component }: Place): string | null {
-    const { doc } = this.#services.store;
-    const frame = frameOf(doc, { frameId, component });
-    return frame && poseKey(doc, component, frame);
   }
 
   #ask(place: Place, start: Candidate, locks: Locks, abort: AbortController): Promise<HandFit> {

@@ -4,7 +4,7 @@ import { inFilmOrder } from '../document/frame_index';
 import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
 import { type Cell, cellOf, chosenCandidate, type Posed, type Result, type Verdict } from '../document/types';
-import { cameraOf, poseKey } from '../results/keys';
+import { cameraOf, poseKeyAt } from '../results/keys';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameOf, onFrameInput } from './from_here';
@@ -52,16 +52,9 @@ export class HandJudge {
     const places = inFilmOrder(store.doc, givenPoses.in(store.doc.cells));
     for (const { frameId, component } of shown ? [shown, ...places] : places) {
       const cell = cellOf(store.doc, frameId, component);
-      if (this.#isUnjudged(cell, this.#keyOf({ frameId, component })) && isLibraryOpen(store, component)) return { place: { frameId, component }, cell };
+      if (this.#isUnjudged(cell, poseKeyAt(store.doc, { frameId, component })) && isLibraryOpen(store, component)) return { place: { frameId, component }, cell };
     }
     return null;
-  }
-
-  /** With which model, calibration and library. */
-  #keyOf(place: Place): string | null {
-    const { doc } = this.#services.store;
-    const frame = frameOf(doc, place);
-    return frame && poseKey(doc, place.component, frame);
   }
 
   #isUnjudged(cell: Cell, key: string | null): cell is Task['cell'] {
@@ -77,11 +70,12 @@ export class HandJudge {
     if (!task) return;
     this.#busy = true;
     const { place, cell } = task;
-    const key = this.#keyOf(place);
+    const { store } = this.#services;
+    const key = poseKeyAt(store.doc, place);
     try {
       const verdict = await this.#ask(task);
-      const isAsBefore = this.#keyOf(place) === key && cellOf(this.#services.store.doc, place.frameId, place.component).outline === cell.outline;
-      if (isAsBefore) this.#services.store.amend((doc) => withHandVerdict(doc, place, cell.result, verdict));
+      const isAsBefore = poseKeyAt(store.doc, place) === key && cellOf(store.doc, place.frameId, place.component).outline === cell.outline;
+      if (isAsBefore) store.amend((doc) => withHandVerdict(doc, place, cell.result, verdict));
     } catch (error) {
       // Without pixels or a model nobody can say; the pose is there all the same.
       if (!(error instanceof Aborted)) this.#untold.set(cell.result, { outline: cell.outline, key });

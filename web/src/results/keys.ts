@@ -1,4 +1,6 @@
 import { distortionKey, fits, numbersOf, type Distortion } from '../document/distortion';
+import type { Place } from '../document/command';
+import { indexOfFrame } from '../document/frame_index';
 import { interned } from '../document/interned';
 import type { Doc, FrameEntry, LibrarySpec } from '../document/types';
 import type { ComponentName } from '../terms/component';
@@ -25,6 +27,12 @@ function viewsText({ views, ...settings }: LibrarySpec): string {
 /** What a pose in this frame is found with. */
 export function poseKey(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
   return poseKeys(doc)(component, frame);
+}
+
+/** The same of a cell; null for one of a frame that is not there. */
+export function poseKeyAt(doc: Doc, { frameId, component }: Place): string | null {
+  const frame = doc.frames[indexOfFrame(doc, frameId)];
+  return frame ? poseKey(doc, component, frame) : null;
 }
 
 function keyFor(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
