@@ -16,7 +16,7 @@
 //! of 16 frames and left one other pose open, 8 to 21 degrees away and of 1.02 to 1.22 times the
 //! residual; the pose taken was right in all of them. A whole film is decided at once by [`choose_film`].
 //!
-//! Where an end of the component is beyond the frame's border what the rules after the first rule out leaves the pose doubtful all the same
+//! Where an end of the component is beyond the frame's border what tilt and neighbours rule out leaves the pose doubtful all the same
 //! ([`super::judge`]): the right one may not be among the candidates.
 //!
 //! A counterpart that is doubtful itself rules out nothing: poses that it speaks against stay open, behind the others.

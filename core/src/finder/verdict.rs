@@ -10,7 +10,7 @@ use core::fmt;
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
-use super::choice::{Choice, DECISIVE_RATIO, OpenRival, RivalPose};
+use super::choice::{Choice, DECISIVE_RATIO, KNEE_DEG, OpenRival, RivalPose};
 use crate::joint::beside::Beside;
 use crate::math::{Decimal, norm, subtract};
 use crate::pose::{Pose, geodesic_deg};
@@ -38,7 +38,8 @@ pub struct Limits {
     pub least_met: f64,
 }
 
-/// Of a part of which more lies beyond the frame an end is missing, and with it what tells the other poses from the right one.
+/// Of a part of which more lies beyond the frame an end is missing, and with it what tells the other poses from the right one. A judgement, by trays of
+/// one study that were cut from above and below (tests/records/refinement.md).
 const BEYOND: f64 = 0.2;
 
 /// Poses that are mirrored lie farther apart than this, degrees; nearer ones are one, as noise has it.
@@ -339,8 +340,9 @@ pub fn judge_one(candidates: &[Candidate], index: usize, limits: &Limits) -> Opt
     Some(alone.or_doubt(other.map(|other| Doubt::open(&one.pose, &other.pose, other.misfit()))))
 }
 
-/// Where an end of the component is beyond the frame, the best of the other poses that the residual does not rule out: joint and film tell the
-/// right pose only where it is among the candidates, and to that of a cut outline often none leads.
+/// Where an end of the component is beyond the frame, the best of the other poses that the residual does not rule out: tilt and film tell the
+/// right pose only where it is among the candidates, and to that of a cut outline often none leads. A pose that is turned as in no knee is none of
+/// these: the joint rules it out by far more than a tilt.
 fn other_of_a_part(candidates: &[Candidate], chosen: usize) -> Option<usize> {
     let own = candidates.get(chosen)?;
     if own.fit.beyond <= BEYOND {
@@ -348,7 +350,7 @@ fn other_of_a_part(candidates: &[Candidate], chosen: usize) -> Option<usize> {
     }
     let is_alike = |other: &Candidate| {
         let turn = geodesic_deg(&other.pose.rotation, &own.pose.rotation);
-        turn > OTHER_DEG && other.misfit() < DECISIVE_RATIO * own.misfit()
+        (OTHER_DEG..KNEE_DEG).contains(&turn) && other.misfit() < DECISIVE_RATIO * own.misfit()
     };
     let mut others = candidates.iter().enumerate();
     others.find_map(|(index, other)| (index != chosen && is_alike(other)).then_some(index))

@@ -246,15 +246,17 @@ fn where_an_end_is_cut_off_joint_and_film_alone_make_nothing_good() {
     for (beyond, deg, times, is_good) in [
         (0.21, 10.0, 1.29, false),
         (0.21, -10.0, 0.8, false),
-        // A whole outline, one pose as noise has it, one that the residual rules out.
+        (0.21, 49.9, 1.0, false),
+        // A whole outline, one pose as noise has it, one that no knee allows, one that the residual rules out.
         (0.2, 10.0, 1.29, true),
         (0.21, 3.9, 1.0, true),
+        (0.21, 50.1, 1.0, true),
         (0.21, 10.0, 1.31, true),
     ] {
         let verdict = judged_beside(beyond, deg, times);
         assert_eq!(verdict == Verdict::Good, is_good, "{beyond} {deg} {times}");
         if !is_good {
-            assert!(verdict.to_string().contains("10 degrees away"), "{verdict}");
+            assert!(verdict.to_string().contains("0 degrees away"), "{verdict}");
         }
     }
     // Of less than six tenths nothing is good, whatever fits.
