@@ -53,7 +53,7 @@ fn off(found: &Found, drawn: EulerPose) -> (f64, bool) {
 
 #[test]
 fn near_the_frame_before_it_is_found_sooner_and_far_from_it_all_the_same() {
-    let (mut sooner, mut anew, mut alike) = (0, 0, 0);
+    let (mut frames, mut sooner, mut anew, mut alike) = (0, 0, 0, 0);
     let (mut saved, mut all) = (0.0, 0.0);
     for (own, bytes) in [made_femur(), made_tibia()] {
         let file = ImplantFile::open(bytes.bytes()).expect("whole");
@@ -75,6 +75,7 @@ fn near_the_frame_before_it_is_found_sooner_and_far_from_it_all_the_same() {
             let (whole, slices) = searched(&wanted, &mut buffers, None);
             let misfit_px = whole.candidates[0].misfit();
             let is_good = off(&whole, euler).1;
+            frames += 1;
             for deg in [3.0, 100.0] {
                 let start = before(euler, deg);
                 let (found, near_slices) =
@@ -101,7 +102,9 @@ fn near_the_frame_before_it_is_found_sooner_and_far_from_it_all_the_same() {
         }
     }
     let share = saved / all;
-    println!("{sooner} sooner, by {share:.2}; {anew} anew; {alike} with their mirror images");
+    println!(
+        "{sooner} of {frames} sooner, by {share:.2}; {anew} anew; {alike} with their mirror images"
+    );
     assert!(share > 0.2, "{share}");
     assert!(
         sooner > 15 && anew > 5 && alike > 0,
