@@ -57,6 +57,16 @@ pub struct Looked {
     pub known: f64,
 }
 
+impl Looked {
+    /// A frame that shows nothing at all, where nothing was expected.
+    pub const BLANK: Self = Self {
+        found: Err(Missing::Blank),
+        ordinary: false,
+        searched: true,
+        known: 0.0,
+    };
+}
+
 /// Looks at a frame for the component that came along a trail; [`Trail::take`] takes the answer.
 #[must_use]
 pub fn look(

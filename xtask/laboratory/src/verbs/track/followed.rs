@@ -1,7 +1,8 @@
 //! All components followed over their film, in the order in which one tells of the other.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, Cell, Settling, take_better};
+use fluoropose::follow::{Anchor, Cell, Looked, Settling, take_better};
+use fluoropose::image::blank::{ONE_GREY, is_blank};
 use rayon::prelude::*;
 
 use super::anchors::{again, fill, fill_in_joint};
@@ -80,5 +81,20 @@ fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cel
     let anchors = again(run, part, anchors)?;
     follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
     fill(run, part, &mut cells)?;
+    find_blank(run, part, &mut cells)?;
     Ok(cells)
+}
+
+/// Of frames that nothing led to, those that show nothing: that is why.
+fn find_blank(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    for (frame, cell) in cells.iter_mut().enumerate() {
+        if cell.looked.is_none()
+            && part.see(run.film, frame, |_, image, _| {
+                is_blank(image.frame, ONE_GREY)
+            })?
+        {
+            cell.looked = Some(Looked::BLANK);
+        }
+    }
+    Ok(())
 }
