@@ -347,6 +347,8 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     let table = folder.read("tracked/track.csv");
     let last = table.lines().last().expect("a row");
     assert!(last.ends_with(",\"1.png\",1"), "{table}");
+    let why = fluoropose::image::blank::BLANK;
+    assert_eq!(table.matches(why).count(), 2, "{table}");
     // What is found without a click that leads nowhere does not take its place.
     let kept = "kept as it was\n";
     folder.write("tracked/track.csv", kept);
