@@ -10,6 +10,7 @@
 //! (Fregly, Rahman and Banks, J. Biomech. Eng. 127, 2005, compare outlines alike). Cameras that
 //! saw the implant at once add their residuals to the same equations.
 
+mod beyond;
 mod border;
 #[cfg(feature = "alloc")]
 mod buffers;
@@ -51,12 +52,12 @@ mod uncertainty;
 mod unless;
 mod view;
 
+pub(crate) use beyond::part_beyond;
 pub use border::BorderPixel;
 #[cfg(feature = "alloc")]
 pub use buffers::RefineBuffers;
 pub use effort::Effort;
 pub use error::RefineError;
-pub(crate) use fit::part_beyond;
 pub use fit::{Fit, MET_WITHIN_PX};
 pub use locks::Locks;
 pub use memory::{FILM_EVERY, RefineMemory};

@@ -1,5 +1,6 @@
 //! How well the model's outline at a pose is met by what was seen.
 
+use super::beyond::part_beyond;
 use super::border::{BorderPixel, Residual};
 use super::view::Target;
 use crate::camera::Camera;
@@ -17,7 +18,7 @@ pub const MET_WITHIN_PX: f64 = 3.0;
 pub struct Fit {
     /// Part of the model's outline within the frame, by length, of which the target says anything: the rest lies in unknown pixels.
     pub known: f64,
-    /// Part of the model beyond the frame's border, by its vertices.
+    /// Part of the model beyond the frame's border, by what its triangles cover as seen.
     pub beyond: f64,
     /// Part of what is known that the target's outline meets within [`MET_WITHIN_PX`].
     pub met: f64,
@@ -68,26 +69,6 @@ impl Fit {
             ..*self
         }
     }
-}
-
-/// Vertices that are asked, about, whether they are in the frame.
-const ASKED: usize = 256;
-
-/// Part of a model's vertices whose image lies beyond the frame; `pose` is `camera_from_model`.
-pub(crate) fn part_beyond(model: &Model<'_>, camera: &Camera, pose: &Pose) -> f64 {
-    let vertices = model.vertices();
-    let every = (vertices.len() / ASKED).max(1);
-    let (mut beyond, mut all) = (0u32, 0u32);
-    for vertex in vertices.iter().step_by(every) {
-        let place = camera.project(&pose.transform(&vertex.map(f64::from)));
-        let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
-        let is_within = place.is_some_and(|place| {
-            within(place.column, camera.width()) && within(place.row, camera.height())
-        });
-        all += 1;
-        beyond += u32::from(!is_within);
-    }
-    f64::from(beyond) / f64::from(all.max(1))
 }
 
 /// Sums over samples and views.
@@ -200,20 +181,8 @@ impl FitSums {
 mod tests {
     use super::*;
 
-    /// A square of 20 mm a metre away, 20 pixels wide, moved to the right out of a frame of 100 pixels: whatever its pixels there show.
     #[test]
-    fn half_of_what_stands_across_the_border_is_beyond() {
-        let grid = |k: usize| [(k % 20) as f32 - 9.5, (k / 20) as f32 - 9.5, 0.0];
-        let vertices: std::vec::Vec<[f32; 3]> = (0..400).map(grid).collect();
-        let model = Model::from_triangles(&vertices, &[[0, 1, 20]]).expect("a triangle");
-        let camera = Camera::new(100, 100, [1000.0; 2], [50.0; 2]).expect("valid");
-        for (right_mm, wanted) in [(0.0, 0.0), (50.0, 0.5), (55.0, 0.75), (80.0, 1.0)] {
-            let pose = Pose {
-                translation: [right_mm, 0.0, -1000.0],
-                ..Pose::IDENTITY
-            };
-            assert_eq!(part_beyond(&model, &camera, &pose), wanted, "{right_mm}");
-        }
+    fn what_lies_beyond_the_border_is_not_seen() {
         let fit = Fit {
             known: 0.6,
             beyond: 0.5,
