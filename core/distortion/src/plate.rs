@@ -103,11 +103,13 @@ pub fn camera(
     let focal = lattice.spacing_px() * object / spacing;
     let mut view = View::first(beads, &lattice, spacing, focal, object, middle);
     let prior_px = PRIOR_MM * focal / detector;
-    // The noise is not known before the first fit.
+    // The noise, that of a column or a row, is not known before the first fit.
     let mut noise = 0.1;
+    let numbers = (2 * used) as f64;
     for _ in 0..FITS {
         view = settle(view, beads, middle, noise / prior_px)?;
-        noise = view.residual(beads).max(LEAST_NOISE_PX);
+        let squares = used as f64 * view.residual(beads) * view.residual(beads);
+        noise = sqrt(squares / (numbers - N as f64)).max(LEAST_NOISE_PX);
     }
     let (normal, _) = view.equations(beads, middle, noise / prior_px);
     let inverse = inverse_spd(&normal).ok_or(DistortionError::Degenerate { order: 1 })?;

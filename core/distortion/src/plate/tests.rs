@@ -9,6 +9,11 @@ const MEASURED: Distances = Distances {
 
 /// Beads of a plate tilted by degrees about x and y, seen by a camera of 0.35 mm pitch and this principal point (mm).
 fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
+    drawn_beads(tilt, offset, noise, 5)
+}
+
+/// The same with noise by a seed, even within that many pixels to either side.
+fn drawn_beads(tilt: [f64; 2], offset: [f64; 2], noise: f64, mut seed: u32) -> Vec<Bead> {
     let rotation = multiply(
         &rotation_by(&[tilt[0].to_radians(), 0.0, 0.0]),
         &multiply(
@@ -24,7 +29,6 @@ fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
         spacing: 12.0,
         middle: [0.0, 0.0],
     };
-    let mut seed = 5u32;
     let mut random = || {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         noise * (f64::from(seed >> 8) / f64::from(1 << 23) - 1.0)
@@ -87,6 +91,29 @@ fn a_tilted_plate_gives_the_principal_point_too() {
         (exact.pitch_mm - 0.35).abs() < 1e-6 && (exact.offset_mm[0] - 4.0).abs() < 1e-2,
         "{exact:?}"
     );
+}
+
+/// Of many pictures of a plate pitch and principal point lie about the truth as far as is told.
+#[test]
+fn errors_are_as_large_as_their_standard_deviations_say() {
+    const PICTURES: u32 = 60;
+    let mut squares = [0.0; 3];
+    for seed in 0..PICTURES {
+        let beads = drawn_beads([25.0, -20.0], [4.0, -2.0], 0.1, 7919 * seed + 1);
+        let found = camera(&beads, MEASURED, (1024, 1024)).expect("fits");
+        let [x, y] = found.offset_mm;
+        let [sd_x, sd_y] = found.offset_deviation_mm;
+        let errors = [
+            (found.pitch_mm - 0.35) / found.pitch_deviation_mm,
+            (x - 4.0) / sd_x,
+            (y + 2.0) / sd_y,
+        ];
+        for (sum, error) in squares.iter_mut().zip(errors) {
+            *sum += error * error / f64::from(PICTURES);
+        }
+    }
+    let all = squares.iter().sum::<f64>() / 3.0;
+    assert!((0.8..1.25).contains(&sqrt(all)), "{squares:?}");
 }
 
 #[test]
