@@ -69,7 +69,7 @@ pub struct Args {
     /// Which studies to work on [default: all that are not done]
     #[arg(long, value_enum)]
     only: Option<Only>,
-    /// Frames a second, where not the study states them
+    /// Frames a second of studies that state none, neither by themselves nor by their DICOM frames
     #[arg(long, value_name = "HZ", value_parser = above_0)]
     fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv

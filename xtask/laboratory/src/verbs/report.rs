@@ -142,13 +142,18 @@ pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
     film().map_or_else(|_| Vec::new(), |film| film.impossibilities())
 }
 
-/// As asked for, or as the study states it, or as its frames do. What is asked for against these is said.
-fn frames_per_s(asked: Option<f64>, study: &Study) -> Option<f64> {
+/// Frames a second as a study states them, or as its frames do.
+pub fn own_frames_per_s(study: &Study) -> Option<f64> {
     // Frames that are not at hand tell no times.
     let of_frames = |folder: &PathBuf| stated_frames_per_s(folder).unwrap_or_default();
-    let stated = study
+    study
         .frames_per_s
-        .or_else(|| study.frames.as_ref().and_then(of_frames));
+        .or_else(|| study.frames.as_ref().and_then(of_frames))
+}
+
+/// As asked for, or as the study or its frames state it. What is asked for against these is said.
+fn frames_per_s(asked: Option<f64>, study: &Study) -> Option<f64> {
+    let stated = own_frames_per_s(study);
     if let (Some(asked), Some(stated)) = (asked, stated)
         && asked != stated
     {

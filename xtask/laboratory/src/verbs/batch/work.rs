@@ -12,7 +12,8 @@ use super::list::Entry;
 use super::manifest::{Inputs, Look, Manifest, Settings};
 use crate::files::{Study, write_text};
 use crate::progress::Stop;
-use crate::verbs::report::{self, report};
+use crate::verbs::report::knee::Filtering;
+use crate::verbs::report::{self, own_frames_per_s, report};
 use crate::verbs::track::{Request, Told, Tracked, doubtful_frames, track};
 
 /// The study's joint, frame by frame.
@@ -66,9 +67,11 @@ fn whole(entry: &Entry, settings: &Settings, folders: &Folders, claim: &Claim) -
 fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usize)> {
     let name = entry.name.clone();
     let study = Study::read(&entry.study)?;
+    let frames_per_s = rate(&study, settings);
     if study.is_knee() {
-        // Its report needs it, at the end of all work.
+        // Its report needs them, at the end of all work.
         study.known_side()?;
+        Filtering::new(frames_per_s, settings.cutoff_hz)?;
     }
     let tracked = track(&Request {
         study: entry.study.clone(),
@@ -96,7 +99,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
             group: Vec::new(),
             poses: Some(aside.to_owned()),
             out: aside.to_owned(),
-            fps: settings.frames_per_s,
+            fps: frames_per_s,
             cutoff: settings.cutoff_hz,
             overlay: false,
         };
@@ -107,6 +110,11 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
     // It says how far an unfinished run has come, in the order in which threads came there.
     std::fs::remove_file(aside.join("journal.txt"))?;
     Ok((frames_of(&tracked), doubtful.len()))
+}
+
+/// Frames a second of a study: its own, and of one that has none those of the batch.
+fn rate(study: &Study, settings: &Settings) -> Option<f64> {
+    own_frames_per_s(study).or(settings.frames_per_s)
 }
 
 fn rehearse(aside: &Path, inputs: &Inputs) -> Result<(usize, usize)> {
@@ -157,6 +165,52 @@ fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_study_keeps_its_own_rate_and_a_filter_that_cannot_be_is_told_before_all_work() {
+        let place = std::env::temp_dir().join(format!("fluoropose-rates-{}", std::process::id()));
+        std::fs::create_dir_all(&place).expect("a folder");
+        let file = place.join("study.toml");
+        let of = |key: &str, settings: &Settings| {
+            let component =
+                |name: &str| format!("[[component]]\nname = '{name}'\nmodel = 'm.stl'\n");
+            let parts = ["femur", "tibia"].map(component).concat();
+            let text = format!(
+                "name = 'k'\nside = 'left'\ncalibration = 'c.txt'\nframes = 'none'\n{key}\n{parts}"
+            );
+            std::fs::write(&file, text).expect("a file");
+            let entry = Entry {
+                name: "k".to_owned(),
+                study: file.clone(),
+                knee: "k".to_owned(),
+                group: "all".to_owned(),
+                clicks: Vec::new(),
+                fixed: Vec::new(),
+            };
+            let study = Study::read(&file).expect("a study");
+            let told = found(&entry, settings, &place.join("aside")).expect_err("no model");
+            (rate(&study, settings), format!("{told:#}"))
+        };
+        let settings = |frames_per_s, cutoff_hz| Settings {
+            frames_per_s,
+            cutoff_hz,
+            ..Settings::default()
+        };
+        let (own, other) = ("frames_per_s = 7.5", settings(Some(30.0), None));
+        assert_eq!(
+            [of(own, &other).0, of("", &other).0],
+            [Some(7.5), Some(30.0)]
+        );
+        assert_eq!(of("", &settings(None, None)).0, None);
+        for (key, settings, words) in [
+            ("", settings(None, Some(3.0)), "needs the frames a second"),
+            (own, settings(Some(30.0), Some(4.0)), "7.5 frames a second"),
+        ] {
+            let told = of(key, &settings).1;
+            assert!(told.contains(words), "{told}");
+        }
+        std::fs::remove_dir_all(&place).expect("it was there");
+    }
 
     #[test]
     fn a_full_disk_is_no_fault_of_the_study() {
