@@ -8,7 +8,9 @@
 
 use thiserror::Error;
 
-use crate::math::{multiply, rotation_by, rotation_vector, sin_cos, sqrt, transpose};
+use crate::math::{
+    Vector3, apply, multiply, rotation_by, rotation_vector, sin_cos, sqrt, subtract, transpose,
+};
 use crate::memory::{TooLittleMemory, check_length};
 use crate::pose::{Pose, Quaternion};
 
@@ -163,32 +165,35 @@ impl LowPass {
 
     /// Filters each unbroken run of poses; frames without one stay without.
     ///
-    /// Translations are filtered as they are. Rotations are filtered as rotation vectors from the mean of the
-    /// run, in its own axes: the result is the same in whatever axes camera and model are given, and is that of filtering the
-    /// angle where all turn about one axis. Euler angles would have neither. Poses of a run must lie within half a turn of their mean.
+    /// Of translations those of `middle` are filtered, a point of the part that moves: that of an origin which lies far off the part is an arc,
+    /// which a filter draws inwards while it leaves the turn that makes it. Rotations are filtered as rotation vectors from the mean of the
+    /// run, in its own axes: the result is the same in whatever axes and from whatever origin camera and model are given, and is that of filtering
+    /// the angle where all turn about one axis. Euler angles would have neither. Poses of a run must lie within half a turn of their mean.
     ///
     /// # Errors
     /// [`TooLittleMemory`] for fewer than [`Self::pose_memory_needed`].
     pub fn smooth_poses(
         &self,
         poses: &mut [Option<Pose>],
+        middle: &Vector3,
         memory: &mut [f64],
     ) -> Result<(), TooLittleMemory> {
         let needed = Self::pose_memory_needed(poses.len());
         check_length("numbers", needed, memory.len())?;
         for run in poses.split_mut(Option::is_none) {
-            self.smooth_pose_run(run, memory);
+            self.smooth_pose_run(run, middle, memory);
         }
         Ok(())
     }
 
-    fn smooth_pose_run(&self, run: &mut [Option<Pose>], memory: &mut [f64]) {
+    fn smooth_pose_run(&self, run: &mut [Option<Pose>], middle: &Vector3, memory: &mut [f64]) {
         let mean = mean_rotation(run.iter().flatten());
         let (numbers, memory) = memory.split_at_mut(6 * run.len());
         let frames = run.len();
         for (at, pose) in run.iter().flatten().enumerate() {
             let turn = rotation_vector(&multiply(&transpose(&mean), &pose.rotation));
-            for (k, value) in turn.into_iter().chain(pose.translation).enumerate() {
+            let place = pose.transform(middle);
+            for (k, value) in turn.into_iter().chain(place).enumerate() {
                 numbers[k * frames + at] = value;
             }
         }
@@ -198,7 +203,7 @@ impl LowPass {
         for (at, pose) in run.iter_mut().flatten().enumerate() {
             let three = |from: usize| core::array::from_fn(|k| numbers[(from + k) * frames + at]);
             pose.rotation = multiply(&mean, &rotation_by(&three(0)));
-            pose.translation = three(3);
+            pose.translation = subtract(&three(3), &apply(&pose.rotation, middle));
         }
     }
 }

@@ -179,7 +179,8 @@ impl<'s> Knee<'s> {
         let pose = |relative: &Option<Relative>| relative.map(|one| one.tibia_from_femur);
         let mut poses: Vec<Option<Pose>> = relative.iter().map(pose).collect();
         let mut room = vec![0.0; LowPass::pose_memory_needed(poses.len())];
-        low_pass.smooth_poses(&mut poses, &mut room)?;
+        let middle = relative.iter().flatten().next().map(|one| one.middle);
+        low_pass.smooth_poses(&mut poses, &middle.unwrap_or_default(), &mut room)?;
         let mut numbers = Vec::new();
         for (pose, relative) in poses.into_iter().zip(relative) {
             let Some((tibia_from_femur, relative)) = pose.zip(*relative) else {
