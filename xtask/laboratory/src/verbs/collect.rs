@@ -19,7 +19,7 @@ use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
     after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and, \
 where the column knee says `mean of the group`, each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, groups.pdf and groups.png, and doubtful.csv (every frame \
 that is not good, with its reason). Doubtful frames are in none of the means.\n\n\
-It exits with 0 where all studies of the list are in it, and with 6 where some have no results (not done, or failed: which, and why, is told): what \
+It exits with 0 where all studies of the list are in it, and with 6 where some have no results (not done, failed, or of another study, calibration or other clicks than the list names now: which, and why, is told): what \
 the others give is written then. With 1 and 2 nothing is written.\n\n\
 Example:\n  cargo xtask collect studies.csv --results results --out group"
 )]
@@ -52,8 +52,9 @@ pub fn run(args: Args) -> Result<u8> {
     let (mut done, mut missing) = (Vec::new(), Vec::new());
     for entry in &entries {
         match Manifest::read(&args.results.join(&entry.name))? {
-            Some(manifest) => done.push(Done { entry, manifest }),
-            None => missing.push(entry.name.as_str()),
+            Some(manifest) if is_of(&manifest, entry)? => done.push(Done { entry, manifest }),
+            Some(_) => missing.push((entry.name.as_str(), Some(OF_OTHERS.to_owned()))),
+            None => missing.push((entry.name.as_str(), failure_of(&args.results, &entry.name))),
         }
     }
     ensure!(
@@ -95,11 +96,20 @@ pub fn run(args: Args) -> Result<u8> {
         missing.len(),
         entries.len()
     );
-    for name in missing {
-        let why = failure_of(&args.results, name);
+    for (name, why) in missing {
         println!("{name}: {}", why.as_deref().unwrap_or("not done"));
     }
     Ok(exit::NOT_DONE)
+}
+
+/// Why results are left out that another study gave, or this one with other clicks.
+const OF_OTHERS: &str = "the list names another study than its results are of, or its file, calibration or clicks have changed: do it again with batch";
+
+/// Whether results are those of the study that the list names, as far as that is at hand.
+fn is_of(manifest: &Manifest, entry: &Entry) -> Result<bool> {
+    let study = Study::read_quietly(&entry.study);
+    let study = study.ok().filter(|study| study.calibration.is_file());
+    study.map_or(Ok(true), |study| manifest.inputs.are_of(entry, &study))
 }
 
 /// Refuses results whose rows are not of the frames as they stand now, as far as these are at hand: films that were followed in another order
@@ -230,6 +240,7 @@ mod tests {
     use fluoropose_report::{JointFilm, JointRow, write};
 
     use super::*;
+    use crate::verbs::batch::{Inputs, Settings};
 
     #[test]
     fn results_of_another_order_of_frames_are_refused() {
@@ -263,6 +274,54 @@ mod tests {
             told.to_string().contains("do it again with batch"),
             "{told}"
         );
+    }
+
+    /// A list whose names went to other studies, or whose clicks were mended.
+    #[test]
+    fn results_of_another_study_than_the_list_names_are_none_of_its_own() {
+        let place = std::env::temp_dir().join(format!("fluoropose-whose-{}", std::process::id()));
+        for name in ["a", "b"] {
+            let folder = place.join(name);
+            std::fs::create_dir_all(&folder).expect("a folder");
+            let study = format!(
+                "name = '{name}'\ncalibration = 'c.txt'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n"
+            );
+            std::fs::write(folder.join("study.toml"), study).expect("a file");
+            std::fs::write(folder.join("c.txt"), "JT_INTCALIB\n1000\n0\n0\n0.3\n").expect("a file");
+        }
+        let digest = |file: &str| {
+            let bytes = std::fs::read(place.join(file)).expect("a file");
+            crate::files::sha256(&bytes)
+        };
+        let sha256 = [("study", "a/study.toml"), ("calibration", "a/c.txt")];
+        let manifest = Manifest {
+            name: "a".to_owned(),
+            inputs: Inputs {
+                version: String::new(),
+                settings: Settings::default(),
+                clicks: vec!["click femur:1:5,6".to_owned()],
+                sha256: sha256
+                    .map(|(what, file)| (what.to_owned(), digest(file)))
+                    .into(),
+                frames: (0, 0),
+            },
+            frames: 0,
+            doubtful: 0,
+            outputs: BTreeMap::new(),
+        };
+        let is_of_row = |row: &str| {
+            let list = place.join("list.csv");
+            std::fs::write(&list, format!("name,study,click\n{row}\n")).expect("a file");
+            is_of(&manifest, &read_list(&list).expect("a list")[0]).expect("files")
+        };
+        assert!(is_of_row("a,a,\"femur:1:5,6\""));
+        assert!(!is_of_row("a,b,\"femur:1:5,6\""));
+        assert!(!is_of_row("a,a,\"femur:1:50,60\"") && !is_of_row("a,a,"));
+        // What is not at hand tells nothing.
+        assert!(is_of_row("a,elsewhere,"));
+        std::fs::write(place.join("a/c.txt"), "JT_INTCALIB\n1000\n0\n0\n0.4\n").expect("a file");
+        assert!(!is_of_row("a,a,\"femur:1:5,6\""));
+        std::fs::remove_dir_all(&place).expect("it was there");
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub(super) const MANIFEST: &str = "manifest.json";
 /// What can be chosen of a run, beside the studies.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Frames a second, where not the study states them.
+    /// Frames a second of studies that state none, neither by themselves nor by their frames.
     pub frames_per_s: Option<f64>,
     /// Cutoff of the filter, Hz.
     pub cutoff_hz: Option<f64>,
@@ -121,6 +121,20 @@ impl Inputs {
             frames: (files.len(), files.iter().map(length).sum()),
             sha256,
         })
+    }
+
+    /// Whether they are those of the study that a list names now: by its clicks, its own file and its calibration, which are soon read.
+    ///
+    /// # Errors
+    /// For files that cannot be read.
+    pub fn are_of(&self, entry: &Entry, study: &Study) -> Result<bool> {
+        let now = entry.clicks.iter().map(|click| &click.called);
+        let mut alike = now.eq(&self.clicks);
+        for (what, file) in [("study", &entry.study), ("calibration", &study.calibration)] {
+            let known = self.sha256.get(what);
+            alike &= known == Some(&digest(file)?);
+        }
+        Ok(alike)
     }
 
     /// Whether these are the same as far as both were looked at.
