@@ -28,7 +28,7 @@ use fluoropose_phantom::implant::Side;
 numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees); the \
 translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. Translations are those \
 of the origins of both files, wherever these lie: a line that begins with # says so above the table's heading, and another where they are such as no knee has. A frame in which \
-either has no pose has empty numbers. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
+either has no pose has empty numbers; without any other frame the exit code is 7. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
 code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (of left implants x anterior, y superior, z to the \
 patient's right; files of right ones are those mirrored in x: x posterior, z to the patient's left); for others name both models, so that their shapes tell the axes, or state the axes of both.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
@@ -89,7 +89,14 @@ pub fn run(args: Args) -> Result<u8> {
         "the axes of the {} component are known and those of the other are not: name both models, or state the axes of both",
         if known[0] { "femoral" } else { "tibial" }
     );
-    let Told { table, told, far } = table(parts, side, femur.into_iter().zip(tibia))?;
+    let Told {
+        table,
+        joints,
+        plateless,
+        told,
+        far,
+    } = table(parts, side, femur.into_iter().zip(tibia))?;
+    let of_plate = plateless.iter().map(|told| format!("# plate: {told}\n"));
     let marked = told.iter().map(|told| format!("# doubtful: {told}\n"));
     let origins = [format!("# translations: {ORIGINS}\n")];
     let far_apart = far.iter().map(|far| format!("# origins: {far}\n"));
@@ -99,6 +106,7 @@ pub fn run(args: Args) -> Result<u8> {
     let of_side = other.iter().map(|other| format!("# side: {other}\n"));
     let marked: String = marked
         .chain(of_side)
+        .chain(of_plate)
         .chain(far_apart)
         .chain(origins)
         .collect();
@@ -113,13 +121,22 @@ pub fn run(args: Args) -> Result<u8> {
         eprintln!("{other}");
     }
     println!("translations: {ORIGINS}");
-    told.iter().chain(&far).for_each(|told| eprintln!("{told}"));
+    let remarks = plateless.iter().chain(&told).chain(&far);
+    remarks.for_each(|told| eprintln!("{told}"));
+    if joints == 0 {
+        eprintln!("no frame has poses of both components: there are no numbers of a joint");
+        return Ok(exit::NOTHING_FOUND);
+    }
     Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
 }
 
 /// The table, and what is told of it.
 struct Told {
     table: String,
+    /// Frames with a joint.
+    joints: usize,
+    /// Why there are no lowest points though both models are known.
+    plateless: Option<String>,
     /// Of numbers that no knee has.
     told: Vec<String>,
     /// Of translations that no knee has by the origins of the files.
@@ -165,8 +182,13 @@ fn table(
         }
         table.push('\n');
     }
+    let known = femur_part.known().zip(tibia_part.known());
     Ok(Told {
         table,
+        joints: frames.len(),
+        plateless: known.filter(|_| joint.is_none()).map(|_| {
+            "no part of the tibial model faces upwards like a tray's plate, so that lowest points are not known: are its axes right?".to_owned()
+        }),
         told: impossibilities(frames.iter().copied())
             .into_iter()
             .chain(lying_beside([femur_part, tibia_part], poses))
@@ -354,6 +376,43 @@ mod tests {
             );
         }
         assert_eq!((rows[2][2], rows[2][4]), ("3.0000", "9.0000"));
+    }
+
+    /// Poses of frames that the other component has none of, and a tray whose stated axes leave nothing that faces upwards.
+    #[test]
+    fn no_joint_and_no_plate_are_told() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-none-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let place = |name: &str| folder.join(name);
+        let (none, pose) = ("NaN,NaN,NaN,NaN,NaN,NaN\n", "1,2,-900,0,0,0\n");
+        for (name, rows) in [("a.jts", [none, pose]), ("b.jts", [pose, none])] {
+            std::fs::write(place(name), format!("JT_EULER_312\n{}", rows.concat())).unwrap();
+        }
+        let parameters = fluoropose_phantom::implant::Parameters::default();
+        let femur = fluoropose_phantom::implant::femur(&parameters).unwrap();
+        fluoropose_phantom::stl::write_file(&femur, &place("femur.stl")).unwrap();
+        // A wall, of which nothing faces upwards.
+        let wall = "v 0 0 -30\nv 0 0 30\nv 0 40 -30\nv 0 40 30\nv 2 20 0\nf 1 2 5\nf 2 4 5\nf 4 3 5\nf 3 1 5\n";
+        std::fs::write(place("wall.obj"), wall).unwrap();
+        let args = |tibia: &str| Args {
+            femur: place("a.jts"),
+            tibia: place(tibia),
+            femur_model: Some(place("femur.stl")),
+            tibia_model: Some(place("wall.obj")),
+            femur_axes: Some("x y z".to_owned()),
+            tibia_axes: Some("x y z".to_owned()),
+            side: Side::Left,
+            out: place("out.csv"),
+        };
+        assert_eq!(run(args("b.jts")).unwrap(), exit::NOTHING_FOUND);
+        run(args("a.jts")).unwrap();
+        let table = std::fs::read_to_string(place("out.csv")).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(
+            table.contains("# plate: no part of the tibial model"),
+            "{table}"
+        );
+        assert!(!table.contains("medial_ap_mm"));
     }
 
     #[test]
