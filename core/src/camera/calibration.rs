@@ -114,8 +114,8 @@ pub enum Calibration {
         /// Principal point: pixel indices, whole numbers at pixel centres.
         centre: [f64; 2],
         /// From laboratory to camera coordinates, in the file's own convention (camera along
-        /// +z, y down); the identity where the file has none.
-        laboratory: Pose,
+        /// +z, y down), where the file says it.
+        laboratory: Option<Pose>,
     },
 }
 
@@ -231,6 +231,9 @@ impl fmt::Display for Calibration {
             } => {
                 writeln!(f, "image size\n{width},{height}\n")?;
                 writeln!(f, "camera matrix\n{fx},0,{cx}\n0,{fy},{cy}\n0,0,1\n")?;
+                let Some(laboratory) = laboratory else {
+                    return Ok(());
+                };
                 writeln!(f, "rotation")?;
                 for [a, b, c] in laboratory.rotation {
                     writeln!(f, "{a},{b},{c}")?;
@@ -313,17 +316,19 @@ fn parse_matrix<'a>(
             return Err(CalibrationError::Negative { focal, axis, row });
         }
     }
-    let mut laboratory = Pose::IDENTITY;
+    let mut laboratory = None;
     let mut lines = lines.peekable();
     // A file of another form would lose where the camera stands, or its distortion, without a word.
     if lines.peek().is_some() {
         heading(&mut lines, "rotation")?;
-        laboratory.rotation = next_matrix(&mut lines, "rotation")?;
-        if !laboratory.is_rigid(1e-3) {
+        let mut pose = Pose::IDENTITY;
+        pose.rotation = next_matrix(&mut lines, "rotation")?;
+        if !pose.is_rigid(1e-3) {
             return Err(CalibrationError::Rotation);
         }
         heading(&mut lines, "translation")?;
-        laboratory.translation = next_translation(&mut lines)?;
+        pose.translation = next_translation(&mut lines)?;
+        laboratory = Some(pose);
     }
     let calibration = Calibration::CameraMatrix {
         size,

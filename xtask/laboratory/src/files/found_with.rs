@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::mesh::Model;
+use fluoropose::pose::Pose;
 use fluoropose_report::cell::{plain, quoted};
 
 use super::text::{csv_fields, read_text, sha256, write_text};
@@ -21,7 +22,7 @@ impl FoundWith {
         calibration: &Calibration,
         models: impl Iterator<Item = (&'m str, Model<'m>)>,
     ) -> Self {
-        let of_calibration = sha256(calibration.to_string().as_bytes());
+        let of_calibration = sha256(text_of(calibration).as_bytes());
         let mut all = vec![("calibration".to_owned(), of_calibration)];
         all.extend(models.map(|(name, model)| {
             let digest = model.digest();
@@ -67,6 +68,16 @@ impl FoundWith {
     }
 }
 
+/// As a file says it. One that does not say where its camera stands was written as one where the laboratory begins, and poses do not
+/// depend on that.
+fn text_of(calibration: &Calibration) -> String {
+    let mut placed = *calibration;
+    if let Calibration::CameraMatrix { laboratory, .. } = &mut placed {
+        laboratory.get_or_insert(Pose::IDENTITY);
+    }
+    placed.to_string()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,6 +100,12 @@ mod tests {
         now.write(&folder).unwrap();
         let again = with("JT_INTCALIB\r\n1000.0\n0\n0\n0.30\n", one.as_model());
         assert!(again.changed_since(&folder).unwrap().is_empty());
+        let matrix = "image size\n64,48\ncamera matrix\n500,0,32\n0,500,24\n0,0,1\n";
+        with(matrix, one.as_model()).write(&folder).unwrap();
+        let placed = format!("{matrix}rotation\n1,0,0\n0,1,0\n0,0,1\ntranslation\n0,0,0\n");
+        let placed = with(&placed, one.as_model()).changed_since(&folder);
+        assert!(placed.unwrap().is_empty());
+        now.write(&folder).unwrap();
         let then = with("JT_INTCALIB\n1000\n0\n0\n0.31\n", other.as_model());
         let told = then.changed_since(&folder).unwrap();
         assert!(

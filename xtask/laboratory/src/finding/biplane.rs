@@ -80,10 +80,12 @@ pub fn turned_about(distance: f64, angle: f64) -> Pose {
 
 /// Where the camera of `other` stands as seen from that of `first`, `other_from_first`, both
 /// looking along -z: from the laboratory that their files share (MayaCam 2.0). `None` where one
-/// of the two is no camera matrix, or neither has a place in the laboratory.
+/// of the two is no camera matrix or does not say where it stands, or where both stand at one place.
 pub fn between(first: &Calibration, other: &Calibration) -> Option<Pose> {
     let place = |calibration: &Calibration| match calibration {
-        Calibration::CameraMatrix { laboratory, .. } => Some(laboratory.flip_camera_axes()),
+        Calibration::CameraMatrix { laboratory, .. } => {
+            (*laboratory).map(|place| place.flip_camera_axes())
+        }
         _ => None,
     };
     let (first, other) = (place(first)?, place(other)?);
@@ -117,7 +119,11 @@ mod tests {
         let first = text("1\n2\n900", "1,0,0\n0,1,0\n0,0,1");
         let other = text("-4\n0\n800", "0,0,-1\n0,1,0\n1,0,0");
         let parse = |text: &str| Calibration::parse(text).expect("valid");
-        let (first, other) = (parse(&first), parse(&other));
+        // A camera of which nothing says where it stands does not stand where the laboratory begins.
+        let placeless = first.split("\nrotation").next().expect("a part");
+        let (first, other, placeless) = (parse(&first), parse(&other), parse(placeless));
+        assert_eq!(between(&placeless, &other), None);
+        assert_eq!(between(&first, &placeless), None);
         let between = between(&first, &other).expect("two places");
         let point = [10.0, -20.0, 30.0];
         // In the files' convention the first camera sees R X + t = (11, -18, 930), in ours y and

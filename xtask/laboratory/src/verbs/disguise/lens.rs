@@ -124,7 +124,7 @@ impl Lens {
             size,
             focal,
             centre: centre.map(|at| at - 0.5),
-            laboratory: Pose::IDENTITY,
+            laboratory: None,
         }
     }
 }
