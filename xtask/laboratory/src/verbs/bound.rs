@@ -1,9 +1,9 @@
 //! Verb `bound`: how well a pose can be known from a noisy outline.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::pose::{EulerPose, Pose};
 use serde::Serialize;
 
@@ -122,8 +122,8 @@ pub fn run(args: Args) -> Result<()> {
     if let Some(taken) = size_taken(&calibration, (camera.width(), camera.height())) {
         eprintln!("{taken}");
     }
-    let poses = match (&args.poses, args.pose) {
-        (Some(path), _) => read_poses(path)?.into_iter().flatten().collect(),
+    let poses: Vec<Pose> = match (&args.poses, args.pose) {
+        (Some(path), _) => known_poses(path)?,
         (None, Some(SixNumbers(pose))) => vec![Pose::from(pose)],
         (None, None) => bail!("neither --pose nor --poses was given"),
     };
@@ -153,6 +153,16 @@ pub fn run(args: Args) -> Result<()> {
     write_json(args.json.as_deref(), &table)
 }
 
+/// The poses of a file, without frames that have none.
+///
+/// # Errors
+/// For a file of no pose: nothing would be printed below the heading.
+fn known_poses(path: &Path) -> Result<Vec<Pose>> {
+    let poses: Vec<Pose> = read_poses(path)?.into_iter().flatten().collect();
+    ensure!(!poses.is_empty(), "{}: no frame has a pose", path.display());
+    Ok(poses)
+}
+
 fn print(table: &Table) {
     println!(
         "{:<6} {:<15} {:>9} {:>9} {:>9} {:>12}",
@@ -175,5 +185,28 @@ fn print(table: &Table) {
     }
     if table.poses.len() > 1 {
         both("RMS", &table.rms);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_without_a_pose_has_no_bound() {
+        let file =
+            std::env::temp_dir().join(format!("fluoropose-bound-{}.jts", std::process::id()));
+        let none = "NaN,NaN,NaN,NaN,NaN,NaN\n";
+        let read = |rows: &str| {
+            std::fs::write(&file, format!("JT_EULER_312\n{rows}")).expect("a file");
+            known_poses(&file)
+        };
+        assert_eq!(
+            read(&format!("{none}1,2,-900,0,0,0\n")).expect("one").len(),
+            1
+        );
+        let told = read(none).expect_err("none").to_string();
+        std::fs::remove_file(&file).expect("it was there");
+        assert!(told.contains("no frame has a pose"), "{told}");
     }
 }

@@ -31,8 +31,8 @@ pub struct Args {
     #[arg(long)]
     grid: PathBuf,
     /// Which frame of the file, from 1
-    #[arg(long, default_value_t = 1)]
-    frame: usize,
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    frame: u32,
     /// Radius of the beads, px; any, where it is left out
     #[arg(long)]
     radius: Option<f64>,
@@ -62,7 +62,7 @@ pub struct Args {
 /// For a picture without a grid, impossible lengths, and files that cannot be read or written.
 pub fn run(args: Args) -> Result<u8> {
     let name = name_of(&args.grid);
-    let picture = FrameFile::open(read(&args.grid)?, &name)?.frame(args.frame.saturating_sub(1))?;
+    let picture = FrameFile::open(read(&args.grid)?, &name)?.frame(args.frame as usize - 1)?;
     let size = (picture.width as usize, picture.height as usize);
     let mut beads = beads_of(&picture, args.bright, args.radius).with_context(|| name.clone())?;
     let as_taken = beads.clone();

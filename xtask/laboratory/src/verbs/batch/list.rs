@@ -63,9 +63,10 @@ fn entries(text: &str, folder: &Path) -> Result<Vec<Entry>> {
     for (line, text) in lines {
         let entry = entry(&heading, &csv_fields(text), folder);
         let entry = entry.with_context(|| format!("line {}", line + 1))?;
-        if !names.insert(entry.name.clone()) {
+        // Many systems keep no two folders whose names differ in capitals alone.
+        if !names.insert(entry.name.to_lowercase()) {
             bail!(
-                "line {}: there is another study called {}: give names in a column 'name'",
+                "line {}: there is another study called {}, capitals or not: give names in a column 'name'",
                 line + 1,
                 entry.name
             );
@@ -167,6 +168,10 @@ mod tests {
             ("study,colour\na/s,red\n", "'colour'"),
             ("study\n", "no study"),
             ("study\na/s.toml\na/t.toml\n", "line 3"),
+            (
+                "study\nKnee/s.toml\nknee/s.toml\n",
+                "another study called knee",
+            ),
             ("study,name\na/s.toml,../x\n", "line 2"),
             ("study,name\na/s.toml,nul\n", "line 2"),
             ("study,name\na/s.toml\n", "line 2"),
