@@ -57,11 +57,16 @@ pub fn run(args: Args) -> Result<u8> {
             None => missing.push((entry.name.as_str(), failure_of(&args.results, &entry.name))),
         }
     }
-    ensure!(
-        !done.is_empty(),
-        "{} holds no results of these studies",
-        args.results.display()
-    );
+    if done.is_empty() {
+        let why = missing
+            .iter()
+            .find_map(|(name, why)| Some((name, why.as_ref()?)));
+        let why = why.map_or(String::new(), |(name, why)| format!("; {name}: {why}"));
+        bail!(
+            "{} holds no results of these studies{why}",
+            args.results.display()
+        );
+    }
     if !args.mixed {
         alike(&done)?;
     }

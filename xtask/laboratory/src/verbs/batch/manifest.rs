@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 
 use super::list::Entry;
 use crate::files::{Study, files_in, name_of, read, read_text, sha256, write_json};
+use crate::verbs::track::FixedPoses;
 
 /// Its name in the folder of a study's results.
 pub(super) const MANIFEST: &str = "manifest.json";
@@ -71,6 +72,15 @@ fn order_of(files: &[PathBuf]) -> Option<String> {
     (!names.is_sorted()).then(|| self::sha256(names.join("\n").as_bytes()))
 }
 
+/// What the next file of fixed poses is called: several may be of one component.
+fn fixed_key(before: &[FixedPoses], component: &str) -> String {
+    let own = |one: &&FixedPoses| one.component == component;
+    match before.iter().filter(own).count() {
+        0 => format!("fixed {component}"),
+        more => format!("fixed {component}, {}", more + 1),
+    }
+}
+
 impl Inputs {
     /// Reads what a study depends on.
     ///
@@ -90,8 +100,8 @@ impl Inputs {
         for component in &study.components {
             take(format!("model of {}", component.name), &component.model)?;
         }
-        for fixed in &entry.fixed {
-            take(format!("fixed {}", fixed.component), &fixed.file)?;
+        for (at, fixed) in entry.fixed.iter().enumerate() {
+            take(fixed_key(&entry.fixed[..at], &fixed.component), &fixed.file)?;
         }
         let files = files_in(folder)?;
         let length = |path: &PathBuf| std::fs::metadata(path).map_or(0, |about| about.len());
@@ -202,4 +212,18 @@ fn list_files(folder: &Path, before: &str, digests: &mut BTreeMap<String, String
 
 fn digest(file: &Path) -> Result<String> {
     Ok(sha256(&read(file)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_of_fixed_poses_has_a_digest_of_its_own() {
+        let of = |text: &str| text.parse::<FixedPoses>().expect("a file");
+        let all = ["femur=a.jts", "tibia=b.jts", "femur=c.jts"].map(of);
+        let keys = (0..3).map(|at| fixed_key(&all[..at], &all[at].component));
+        let keys: Vec<String> = keys.collect();
+        assert_eq!(keys, ["fixed femur", "fixed tibia", "fixed femur, 2"]);
+    }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::pose::Pose;
 use fluoropose::refine::Polarity;
 
@@ -71,6 +71,7 @@ impl Request {
                 "{called}: there are {rows} rows, but the film has {count} frames"
             );
         }
+        check_once(&self.fixed)?;
         let (width, height) = film.size();
         for Click {
             called,
@@ -139,6 +140,26 @@ pub struct Fixed {
     pub called: String,
 }
 
+/// Refuses a frame of a component that two files fix: one of them would change.
+fn check_once(fixed: &[Fixed]) -> Result<()> {
+    for (at, one) in fixed.iter().enumerate() {
+        for other in &fixed[..at] {
+            let mut frames = one.poses.iter().zip(&other.poses);
+            let both = frames.position(|(a, b)| a.is_some() && b.is_some());
+            if let Some(frame) = both.filter(|_| one.component == other.component) {
+                bail!(
+                    "{} and {} both fix {} in frame {}: write NaN there in one of them",
+                    other.called,
+                    one.called,
+                    one.component,
+                    frame + 1
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Poses of a component that a person fixed, `COMPONENT=FILE`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixedPoses {
@@ -179,6 +200,23 @@ impl FromStr for FixedPoses {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn several_files_may_fix_a_component_but_none_of_its_frames_twice() {
+        let fixed = |component: &str, called: &str, frames: [bool; 3]| Fixed {
+            component: component.to_owned(),
+            poses: frames.map(|is| is.then_some(Pose::IDENTITY)).into(),
+            called: called.to_owned(),
+        };
+        let first = fixed("femur", "a.jts", [true, false, true]);
+        let between = fixed("femur", "b.jts", [false, true, false]);
+        let of_other = fixed("tibia", "c.jts", [true; 3]);
+        check_once(&[first.clone(), between, of_other]).expect("once");
+        let again = fixed("femur", "d.jts", [false, true, true]);
+        let told = check_once(&[first, again]).expect_err("twice").to_string();
+        let words = "a.jts and d.jts both fix femur in frame 3";
+        assert!(told.contains(words), "{told}");
+    }
 
     #[test]
     fn clicks_and_fixed_poses_are_read_and_frames_counted_from_1() {
