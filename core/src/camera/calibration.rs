@@ -14,6 +14,9 @@ pub const JT_INTCALIB: &str = "JT_INTCALIB";
 /// The same file as a later program of the field heads it; read, never written.
 const JTA_INTCALIB: &str = "JTA_INTCALIB";
 
+/// Heading of files of two cameras by the same program.
+const OF_TWO: &str = "JTA_INTCALIB_BIPLANE";
+
 /// Why a text is not a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum CalibrationError {
@@ -22,6 +25,11 @@ pub enum CalibrationError {
         "this is not a calibration: it begins neither with JT_INTCALIB nor with the line 'image size' of a camera-matrix file; five lines would do: JT_INTCALIB, and then in mm the distance from focus to detector, x (right) and y (up) of the principal point from the frame's middle, and the pixel pitch"
     )]
     UnknownKind,
+    /// A file of two cameras.
+    #[error(
+        "the calibration is of two cameras ({OF_TWO}): give each a file of its own, {JT_INTCALIB} and four numbers"
+    )]
+    TwoCameras,
     /// A line is missing.
     #[error("the calibration ends before its {0}")]
     Missing(&'static str),
@@ -132,6 +140,7 @@ impl Calibration {
             .map(|(index, line)| (index + 1, line.trim()))
             .filter(|(_, line)| !line.is_empty());
         match lines.next() {
+            Some((_, first)) if first.starts_with(OF_TWO) => Err(CalibrationError::TwoCameras),
             Some((_, first))
                 if first.starts_with(JT_INTCALIB) || first.starts_with(JTA_INTCALIB) =>
             {

@@ -100,6 +100,15 @@ fn a_matrix_without_a_laboratory_and_with_a_row_of_translation_is_read() {
     assert_eq!(Calibration::parse(&row), Calibration::parse(MATRIX));
 }
 
+/// The second camera's numbers may stand in one line, as the vectors of where a single one stands do.
+#[test]
+fn a_file_of_two_cameras_is_not_read_as_its_first() {
+    let one = "JTA_INTCALIB\n1000\n0\n0\n0.3\n1100,0,0,0.3\n900,0,-200\n";
+    assert!(Calibration::parse(one).is_ok());
+    let two = one.replace("JTA_INTCALIB", "JTA_INTCALIB_BIPLANE");
+    assert_eq!(Calibration::parse(&two), Err(CalibrationError::TwoCameras));
+}
+
 #[test]
 fn where_the_camera_stands_is_not_lost_by_another_word() {
     for heading in ["Rotation:", "rotation matrix", "ROTATION MATRIX :"] {
