@@ -73,6 +73,7 @@ pub fn run(args: Args) -> Result<u8> {
     for one in &done {
         check_order(one.entry, &args.results)?;
     }
+    check_once(done.iter().map(|one| one.entry))?;
     let groups = groups(&done, &args.results)?;
     if let Some(fault) = groups.iter().flat_map(Group::knees).find_map(Knee::fault) {
         bail!("{fault}: name each knee in the list");
@@ -132,6 +133,25 @@ fn check_order(entry: &Entry, results: &Path) -> Result<()> {
         entry.name,
         folder.display()
     );
+    Ok(())
+}
+
+/// Refuses a film that counts twice: a study under two names, as far as it is at hand.
+fn check_once<'e>(entries: impl Iterator<Item = &'e Entry>) -> Result<()> {
+    let mut known: BTreeMap<PathBuf, &str> = BTreeMap::new();
+    for entry in entries {
+        let place = entry.study.canonicalize();
+        let before = place
+            .ok()
+            .and_then(|place| known.insert(place, &entry.name));
+        if let Some(before) = before {
+            bail!(
+                "the studies {before} and {} are one, {}: a film counts once",
+                entry.name,
+                entry.study.display()
+            );
+        }
+    }
     Ok(())
 }
 
@@ -327,6 +347,30 @@ mod tests {
         std::fs::write(place.join("a/c.txt"), "JT_INTCALIB\n1000\n0\n0\n0.4\n").expect("a file");
         assert!(!is_of_row("a,a,\"femur:1:5,6\""));
         std::fs::remove_dir_all(&place).expect("it was there");
+    }
+
+    #[test]
+    fn a_film_under_two_names_is_refused() {
+        let place = std::env::temp_dir().join(format!("fluoropose-twice-{}", std::process::id()));
+        for name in ["a", "b"] {
+            std::fs::create_dir_all(place.join(name)).expect("a folder");
+            std::fs::write(place.join(name).join("study.toml"), "").expect("a file");
+        }
+        let check = |rows: &str| {
+            let list = place.join("list.csv");
+            std::fs::write(&list, format!("study,name\n{rows}")).expect("a file");
+            let list = read_list(&list).expect("a list");
+            check_once(list.iter()).map_err(|error| error.to_string())
+        };
+        assert_eq!(check("a,first\nb,second\n"), Ok(()));
+        // What is not at hand tells nothing.
+        assert_eq!(check("gone,first\ngone,second\n"), Ok(()));
+        let told = check("a,first\nb/../a/study.toml,second\n").expect_err("one film");
+        std::fs::remove_dir_all(&place).expect("it was there");
+        assert!(
+            told.contains("the studies first and second are one"),
+            "{told}"
+        );
     }
 
     #[test]
