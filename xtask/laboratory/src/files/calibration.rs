@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 
@@ -51,7 +51,29 @@ pub fn size_taken(calibration: &Calibration, (width, height): (usize, usize)) ->
 pub fn camera_for(calibration: &Calibration, Pair([width, height]): Pair) -> Result<Camera> {
     let (width, height) = match *calibration {
         Calibration::CameraMatrix { size, .. } => size,
-        _ => (width as usize, height as usize),
+        _ => {
+            let are_whole = [width, height].iter().all(|side| side.fract() == 0.0);
+            ensure!(
+                are_whole,
+                "a frame of {width},{height} pixels has no whole sides"
+            );
+            (width as usize, height as usize)
+        }
     };
     Ok(calibration.camera(width, height)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_has_whole_sides() {
+        let calibration = Calibration::parse("JT_INTCALIB\n1000\n0\n0\n0.3\n").expect("valid");
+        let of = |width| camera_for(&calibration, Pair([width, 48.0]));
+        assert_eq!(of(64.0).expect("whole").width(), 64);
+        for width in [64.5, f64::NAN, f64::INFINITY, -64.0] {
+            assert!(of(width).is_err(), "{width}");
+        }
+    }
 }

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail, ensure};
+use fluoropose::camera::Camera;
 use fluoropose::pose::{EulerPose, Pose};
 use serde::Serialize;
 
 use crate::files::{
-    camera_for, read_calibration, read_mask, read_model, read_poses, size_taken, write_json,
+    MaskBuffer, camera_for, read_calibration, read_mask, read_model, read_poses, size_taken,
+    write_json,
 };
 
 use crate::measure::bound::{Limit, Outlines, PoseLimits};
@@ -127,7 +129,9 @@ pub fn run(args: Args) -> Result<()> {
         (None, Some(SixNumbers(pose))) => vec![Pose::from(pose)],
         (None, None) => bail!("neither --pose nor --poses was given"),
     };
-    let unknown = args.unknown.as_deref().map(read_mask).transpose()?;
+    let unknown = args.unknown.as_deref();
+    let unknown = unknown.map(|path| unknown_pixels(path, &camera));
+    let unknown = unknown.transpose()?;
     let noise = Noise {
         jitter_px: args.jitter,
         correlation_px: args.correlation,
@@ -151,6 +155,28 @@ pub fn run(args: Args) -> Result<()> {
     };
     print(&table);
     write_json(args.json.as_deref(), &table)
+}
+
+/// A mask of what is not known of the camera's frames.
+///
+/// # Errors
+/// For a file that cannot be read, and a mask of another size.
+fn unknown_pixels(path: &Path, camera: &Camera) -> Result<MaskBuffer> {
+    let mask = read_mask(path)?;
+    let [own, frame] = [
+        (mask.mask().width(), mask.mask().height()),
+        (camera.width(), camera.height()),
+    ];
+    ensure!(
+        own == frame,
+        "{} is {} x {} pixels and the frame {} x {}: a mask is as large as its frame",
+        path.display(),
+        own.0,
+        own.1,
+        frame.0,
+        frame.1
+    );
+    Ok(mask)
 }
 
 /// The poses of a file, without frames that have none.
@@ -191,6 +217,24 @@ fn print(table: &Table) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mask_of_unknown_pixels_is_as_large_as_the_frame() {
+        let file =
+            std::env::temp_dir().join(format!("fluoropose-hidden-{}.png", std::process::id()));
+        fluoropose_phantom::picture::write_grey(&file, (20, 10), &[255; 200]).expect("a file");
+        let read = |width, height| {
+            let camera = Camera::new(width, height, [1e3; 2], [5.0; 2]).expect("possible");
+            unknown_pixels(&file, &camera).map(drop)
+        };
+        read(20, 10).expect("as large");
+        let told = read(20, 12).expect_err("another size").to_string();
+        std::fs::remove_file(&file).expect("it was there");
+        assert!(
+            told.contains("20 x 10 pixels and the frame 20 x 12"),
+            "{told}"
+        );
+    }
 
     #[test]
     fn a_file_without_a_pose_has_no_bound() {
