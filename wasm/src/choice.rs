@@ -2,7 +2,7 @@
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
 use fluoropose::finder::{Doubt, Found, Limits, Verdict, contenders, judge};
-use fluoropose::pose::Pose;
+use fluoropose::pose::{Pose, geodesic_deg};
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
@@ -15,6 +15,8 @@ pub struct Surroundings {
     /// In the field's axes.
     counterpart: Option<Counterpart>,
     neighbours: Vec<Pose>,
+    /// Poses that had been found where a person set another.
+    rivals: Vec<Pose>,
     /// Those of the component that is chosen for; without them they are its file's own.
     model_from_field: Option<Pose>,
 }
@@ -66,6 +68,16 @@ impl Surroundings {
         self.neighbours.push(from_numbers(pose)?.into());
         Ok(())
     }
+
+    /// A pose that had been found where a person set another.
+    ///
+    /// # Errors
+    /// As of `set_femur`.
+    #[wasm_bindgen(js_name = addRival)]
+    pub fn add_rival(&mut self, pose: &[f64]) -> Result<(), JsError> {
+        self.rivals.push(from_numbers(pose)?.into());
+        Ok(())
+    }
 }
 
 fn in_field_axes(pose: &[f64], axes: Option<Vec<f64>>) -> Result<Pose, JsError> {
@@ -97,6 +109,31 @@ impl Surroundings {
             neighbours: &neighbours,
         };
         choose(&candidates, &context)
+    }
+
+    /// Poses that had been found where a person set another.
+    pub(crate) fn rivals(&self) -> &[Pose] {
+        &self.rivals
+    }
+
+    /// What speaks against the first of some poses, in a sentence without its full stop: another that is likelier or as likely, or the joint. Nothing where all others
+    /// are ruled out.
+    pub(crate) fn against(&self, all: &[RivalPose]) -> Option<String> {
+        let own = all.first()?;
+        let choice = self.choose(all)?;
+        if choice.index == 0 {
+            return doubt_among(all, &choice).map(|doubt| doubt.to_string());
+        }
+        let other = all.get(choice.index)?;
+        if choice.open.is_some_and(|open| open.index == 0) {
+            return Some(Doubt::open(&own.pose, &other.pose, other.residual_px).to_string());
+        }
+        let turn_deg = geodesic_deg(&own.pose.rotation, &other.pose.rotation);
+        let reason = self.explain_reason(&choice.reason);
+        let reason = reason.trim_end_matches('.');
+        Some(format!(
+            "the pose that had been found, {turn_deg:.0} degrees away, is likelier ({reason})"
+        ))
     }
 
     /// Why a pose was chosen, in a sentence or two.
@@ -329,6 +366,43 @@ mod tests {
             chosen.sentence,
             "By continuity: turned 0.5° from the neighbouring frames, the pose ruled out 7.5°."
         );
+    }
+
+    #[test]
+    fn what_had_been_found_speaks_against_a_hand_unless_it_is_ruled_out() {
+        let with = |residual_px, x_rot_deg| RivalPose {
+            residual_px,
+            ..turned(x_rot_deg)
+        };
+        let mut around = Surroundings::default();
+        assert_eq!(around.against(&[turned(6.0)]), None);
+        let alike = around
+            .against(&[turned(6.0), with(0.31, 0.0)])
+            .expect("open");
+        assert!(
+            alike.contains("6 degrees away, fits as well (0.31 px)"),
+            "{alike}"
+        );
+        // Which of both left a little less says nothing.
+        let alike = around
+            .against(&[turned(6.0), with(0.29, 0.0)])
+            .expect("open");
+        assert!(alike.contains("fits as well (0.29 px)"), "{alike}");
+        let likelier = around
+            .against(&[turned(6.0), with(0.1, 0.0)])
+            .expect("likelier");
+        assert!(
+            likelier.contains("6 degrees away, is likelier (By the residual: 0.10 px"),
+            "{likelier}"
+        );
+        assert_eq!(around.against(&[turned(6.0), with(0.9, 0.0)]), None);
+        // A hand that is where the frames beside it are is right, and one that is not is not.
+        around.neighbours.push(turned(5.5).pose);
+        assert_eq!(around.against(&[turned(6.0), with(0.31, 0.0)]), None);
+        let likelier = around
+            .against(&[turned(0.0), with(0.31, 6.0)])
+            .expect("likelier");
+        assert!(likelier.contains("By continuity"), "{likelier}");
     }
 
     #[test]

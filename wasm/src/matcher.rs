@@ -3,6 +3,7 @@
 mod answer;
 mod follow;
 mod from_here;
+mod hand_verdict;
 mod landscape;
 mod nearest;
 mod on_frame;
@@ -10,7 +11,8 @@ mod one_click;
 mod readings;
 
 pub use answer::OneClickAnswer;
-pub use from_here::{HandFit, HandVerdict, HiddenPixels};
+pub use from_here::{HandFit, HiddenPixels};
+pub use hand_verdict::HandVerdict;
 pub use landscape::{Landscape, ViewPose};
 pub use nearest::{Canonical, NearestView};
 pub use one_click::OneClick;

@@ -2,7 +2,6 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
-use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions, Refined};
@@ -10,6 +9,8 @@ use fluoropose_tracing::beside;
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
+use super::hand_verdict::HandVerdict;
+use crate::choice::Surroundings;
 use crate::film::film_model;
 use crate::found::Uncertainty;
 use crate::squares::{look_in_squares, side_of, square_px};
@@ -29,36 +30,6 @@ pub struct HandFit {
     uncertainty: Option<Uncertainty>,
     bright: bool,
     verdict: HandVerdict,
-}
-
-/// How far a pose that somebody set is to be trusted. It stays whatever the verdict, so there are two words.
-#[wasm_bindgen]
-#[derive(Clone)]
-pub struct HandVerdict(Verdict);
-
-#[wasm_bindgen]
-impl HandVerdict {
-    /// `good` or `doubtful`.
-    #[wasm_bindgen(getter)]
-    pub fn word(&self) -> String {
-        let word = match self.0 {
-            Verdict::Good => "good",
-            Verdict::Doubtful(_) | Verdict::NoFit(_) => "doubtful",
-        };
-        word.to_owned()
-    }
-
-    /// Why, in a sentence without its full stop.
-    #[wasm_bindgen(getter)]
-    pub fn because(&self) -> String {
-        let Verdict::NoFit(Refusal::NoFit { misfit_px, met }) = self.0 else {
-            return self.0.to_string();
-        };
-        let percent = 100.0 * met;
-        format!(
-            "at this pose only {percent:.0} % of the model's outline is met ({misfit_px:.1} px): bring it nearer, then refine from there"
-        )
-    }
 }
 
 #[wasm_bindgen]
@@ -169,7 +140,7 @@ impl HiddenPixels {
 #[wasm_bindgen]
 impl Matcher {
     /// Brings the model from a pose (six numbers) onto an outline. Of `locked`, six flags in the order of the numbers, those
-    /// that are not zero stay.
+    /// that are not zero stay. `around`: what the answer's verdict is held against.
     ///
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
@@ -179,13 +150,14 @@ impl Matcher {
         traced: &Traced,
         start: &[f64],
         locked: &[u8],
+        around: &Surroundings,
     ) -> Result<HandFit, JsError> {
         let (start, options) = begin(start, locked)?;
         let model = model_of(&mut self.model)?;
         let camera = traced.camera();
         traced.look(|silhouette| {
             let view = CameraView::only(&camera, *silhouette);
-            let mut fit = fitted(model, &start, view, options)?;
+            let mut fit = fitted(model, &start, view, options, around)?;
             let pose = Pose::from(from_numbers(&fit.pose)?);
             fit.drawn = model.draw(&pose, &camera, silhouette)?;
             Ok(fit)
@@ -207,12 +179,13 @@ impl Matcher {
         locked: &[u8],
         known: &[f64],
         bright: Option<bool>,
+        around: &Surroundings,
     ) -> Result<HandFit, JsError> {
         let (start, options) = begin(start, locked)?;
         let model = model_of(&mut self.model)?;
         let on = (film, film_model(known)?, bright);
         on_frame(model, on, hidden, &start, |model, view, bright| {
-            let fit = fitted(model, &start, view, options)?;
+            let fit = fitted(model, &start, view, options, around)?;
             Ok(HandFit { bright, ..fit })
         })
     }
@@ -222,11 +195,19 @@ impl Matcher {
     /// # Errors
     /// The core's sentence about a pose at which the model cannot be drawn.
     #[wasm_bindgen(js_name = judgeOutline)]
-    pub fn judge_outline(&mut self, traced: &Traced, pose: &[f64]) -> Result<HandVerdict, JsError> {
+    pub fn judge_outline(
+        &mut self,
+        traced: &Traced,
+        pose: &[f64],
+        around: &Surroundings,
+    ) -> Result<HandVerdict, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let model = model_of(&mut self.model)?;
         let camera = traced.camera();
-        traced.look(|silhouette| judged(model, &pose, CameraView::only(&camera, *silhouette)))
+        traced.look(|silhouette| {
+            let view = CameraView::only(&camera, *silhouette);
+            HandVerdict::at(model, &pose, view, around)
+        })
     }
 
     /// The same by the edges of a grey frame.
@@ -241,23 +222,15 @@ impl Matcher {
         pose: &[f64],
         known: &[f64],
         bright: Option<bool>,
+        around: &Surroundings,
     ) -> Result<HandVerdict, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let model = model_of(&mut self.model)?;
         let on = (film, film_model(known)?, bright);
         on_frame(model, on, hidden, &pose, |model, view, _| {
-            judged(model, &pose, view)
+            HandVerdict::at(model, &pose, view, around)
         })
     }
-}
-
-fn judged(
-    model: &mut WorkingModel,
-    pose: &Pose,
-    view: CameraView<'_>,
-) -> Result<HandVerdict, JsError> {
-    let fit = model.fit_at(pose, view)?;
-    Ok(HandVerdict(judge_fit(&fit, true, &Limits::USUAL)))
 }
 
 /// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose` where it is not known, and told too.
@@ -291,19 +264,22 @@ fn fitted(
     start: &Pose,
     view: CameraView<'_>,
     options: RefineOptions,
+    around: &Surroundings,
 ) -> Result<HandFit, JsError> {
     let refined: Refined = model.refine_set(start, view, options)?;
     let assessed = model.assess(&refined, view)?;
     // How sure a pose is of which a part was given is not known.
     let free = options.locks.is_empty();
     let determined = !free || assessed.uncertainty.is_some();
+    let held = (&refined.pose, &assessed.fit, determined);
+    let verdict = HandVerdict::beside(model, held, view, around);
     Ok(HandFit {
         pose: to_numbers(&EulerPose::from(refined.pose)),
         residual_px: refined.in_pixels(side_of(&view)).residual_px,
         drawn: None,
         uncertainty: assessed.uncertainty.filter(|_| free),
         bright: false,
-        verdict: HandVerdict(judge_fit(&assessed.fit, determined, &Limits::USUAL)),
+        verdict,
     })
 }
 

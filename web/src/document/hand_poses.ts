@@ -1,6 +1,6 @@
 import { withCell } from './commands';
 import type { Command, Place } from './command';
-import { type Candidate, cellOf, type Doc, isByHand, type OnFrame, type Posed, type Verdict } from './types';
+import { type Candidate, cellOf, type Doc, isByHand, type OnFrame, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { texts } from '../texts/texts';
 
@@ -97,5 +97,12 @@ function byHand(origin: HandOrigin, candidate: Candidate, reason: string | null,
 
 function withResult(doc: Doc, place: Place, result: Posed): Doc {
   const cell = cellOf(doc, place.frameId, place.component);
-  return withCell(doc, place, { ...cell, result, resultOf: cell.outline });
+  const rivals = foundBefore(cell.result);
+  return withCell(doc, place, { ...cell, result: rivals.length > 0 ? { ...result, rivals } : result, resultOf: cell.outline });
+}
+
+/** Poses that the program found in a cell, also where a hand has set another since. */
+export function foundBefore(result: Result | null): readonly PoseNumbers[] {
+  if (result?.kind !== 'posed' || result.from === 'file') return [];
+  return isByHand(result) ? (result.rivals ?? []) : result.candidates.map(({ pose }) => pose);
 }

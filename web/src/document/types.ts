@@ -250,6 +250,8 @@ export interface Posed {
   readonly own?: Verdict;
   /** What the joint with the other component tells of it, whatever it is by itself: a sentence without its full stop. */
   readonly aside?: string;
+  /** Of a pose set by hand: the poses that had been found there, against which it is held. */
+  readonly rivals?: readonly PoseNumbers[];
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
   /** Missing where the poses were brought onto an outline, not onto the edges of the frame itself. */

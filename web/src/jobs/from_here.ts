@@ -9,6 +9,7 @@ import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { FitFacts, OnFrame } from '../workers/protocol/by_hand';
 import { cameraOf, poseKeyAt } from '../results/keys';
+import { aroundHand } from '../results/surroundings';
 import { flatten } from './poser';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { asJob, sentenceOf, type Services } from './services';
@@ -85,13 +86,13 @@ export class FromHere {
     const camera = cameraOf(doc, frameOf(doc, place));
     if (!outline || !camera) throw new Error(texts.hand.said.noModel(texts.component[place.component]));
     const { component } = place;
-    const input = { component, ...flatten(outline), camera, start: pose, locked: flagsOf(locks) };
+    const input = { component, ...flatten(outline), camera, start: pose, locked: flagsOf(locks), around: aroundHand(doc, place) };
     return this.#worker.call('refineFrom', input, { signal });
   }
 
   async #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
     const onFrame = await onFrameInput(this.#services, place);
-    const input = { ...onFrame, start: pose, locked: flagsOf(locks) };
+    const input = { ...onFrame, start: pose, locked: flagsOf(locks), around: aroundHand(this.#services.store.doc, place) };
     return this.#worker.call('refineOnFrame', input, { signal, transfer: [onFrame.frame.pixels.buffer] });
   }
 

@@ -5,6 +5,7 @@ import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
 import { type Cell, cellOf, chosenCandidate, type Posed, type Result, type Verdict } from '../document/types';
 import { cameraOf, poseKeyAt } from '../results/keys';
+import { aroundHand } from '../results/surroundings';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameOf, onFrameInput } from './from_here';
@@ -89,11 +90,12 @@ export class HandJudge {
     const { doc } = this.#services.store;
     const pose = chosenCandidate(cell)!.pose;
     const camera = cameraOf(doc, frameOf(doc, place));
+    const around = aroundHand(doc, place);
     if (isClosed(cell.outline) && cell.outline && camera) {
-      return this.#worker.call('judgeOutline', { component: place.component, ...flatten(cell.outline), camera, pose });
+      return this.#worker.call('judgeOutline', { component: place.component, ...flatten(cell.outline), camera, pose, around });
     }
     const input = await onFrameInput(this.#services, place);
-    return this.#worker.call('judgeOnFrame', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
+    return this.#worker.call('judgeOnFrame', { ...input, pose, around }, { transfer: [input.frame.pixels.buffer] });
   }
 }
 

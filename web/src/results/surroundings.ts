@@ -1,9 +1,12 @@
 import { signedAxes, tiltAxes } from '../document/axes';
+import type { Place } from '../document/command';
 import { indexOfFrame } from '../document/frame_index';
+import { foundBefore } from '../document/hand_poses';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictAlone } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { otherThan, type ComponentName } from '../terms/component';
+import type { AroundHand } from '../workers/protocol/by_hand';
 import type { Counterpart, Surroundings } from '../workers/protocol/match';
 import type { OtherInFrame } from '../workers/protocol/one_click';
 
@@ -15,6 +18,11 @@ export function surroundingsOf(doc: Doc, frameId: string, component: ComponentNa
   const index = indexOfFrame(doc, frameId);
   const neighbours = [index - 1, index + 1].map((frame) => reliablePose(doc, frame, component));
   return { counterpart: counterpartOf(doc, index, component), neighbours: neighbours.filter((pose) => pose !== null) };
+}
+
+/** What a pose that somebody set is held against: the same, and what had been found there. */
+export function aroundHand(doc: Doc, { frameId, component }: Place): AroundHand {
+  return { ...surroundingsOf(doc, frameId, component), rivals: foundBefore(cellOf(doc, frameId, component).result) };
 }
 
 /** Where the joint's other component is, for who asks where its joint leaves this one. */

@@ -1,8 +1,9 @@
-import type { EdgeReadings, HandFit, HandVerdict, Landscape, Matcher, Traced } from '../../pkg/core/fluoropose_wasm.js';
+import type { EdgeReadings, HandFit, HandVerdict, Landscape, Matcher, Surroundings as RawSurroundings, Traced } from '../../pkg/core/fluoropose_wasm.js';
 import type { Verdict } from '../../document/types';
-import type { EdgeFacts, FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
+import type { AroundHand, EdgeFacts, FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
-import type { MatchInput } from '../protocol/match';
+import type { MatchInput, Surroundings } from '../protocol/match';
+import type { ComponentName } from '../../terms/component';
 import { filmArray, type MatcherOf, onFrame } from './on_frame';
 import type { Handlers } from './serve';
 
@@ -10,17 +11,30 @@ import type { Handlers } from './serve';
 export interface Held {
   readonly withTraced: <T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T) => Promise<T>;
   readonly matcherOf: MatcherOf;
+  readonly withSurroundings: <T>(component: ComponentName, around: Surroundings, work: (raw: RawSurroundings) => T) => T;
 }
 
-export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> {
+export function byHand({ withTraced, matcherOf, withSurroundings }: Held): Handlers<HandProtocol> {
+  const held = <T>(component: ComponentName, around: AroundHand, work: (raw: RawSurroundings) => T): T =>
+    withSurroundings(component, around, (raw) => {
+      for (const rival of around.rivals) raw.addRival(numbers(poseArray(rival)));
+      return work(raw);
+    });
   return {
-    refineFrom: ({ start, locked, ...input }) =>
-      withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
-    refineOnFrame: ({ start, locked, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked), filmArray(input.film), input.bright))),
-    judgeOutline: ({ pose, ...input }) => withTraced(input, (matcher, traced) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose))))),
-    judgeOnFrame: ({ pose, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film), input.bright))),
+    refineFrom: ({ start, locked, around, ...input }) =>
+      withTraced(input, (matcher, traced) => held(input.component, around, (raw) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked), raw)))),
+    refineOnFrame: ({ start, locked, around, ...input }) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) =>
+        held(input.component, around, (raw) =>
+          factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked), filmArray(input.film), input.bright, raw)),
+        ),
+      ),
+    judgeOutline: ({ pose, around, ...input }) =>
+      withTraced(input, (matcher, traced) => held(input.component, around, (raw) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose)), raw)))),
+    judgeOnFrame: ({ pose, around, ...input }) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) =>
+        held(input.component, around, (raw) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film), input.bright, raw))),
+      ),
     readOnFrame: ({ pose, ...input }) =>
       onFrame(matcherOf, input, (matcher, image, hidden) => edgesOf(matcher.readOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film), input.bright))),
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),

@@ -18,7 +18,7 @@ const ready = loadCore();
 const matchers = new Map<ComponentName, Matcher>();
 
 serve<PoseProtocol>({
-  ...byHand({ withTraced, matcherOf }),
+  ...byHand({ withTraced, matcherOf, withSurroundings }),
   ...onFilm({ matcherOf, read }),
   ...joint(ready),
   ...oneClick({ ready, matcherOf, withSurroundings, read }),

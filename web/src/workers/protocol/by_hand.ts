@@ -1,7 +1,7 @@
 import type { Verdict } from '../../document/types';
 import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
-import type { MatchInput } from './match';
+import type { MatchInput, Surroundings } from './match';
 import type { CameraInput } from './camera';
 import type { FramePixels } from './frame_pixels';
 
@@ -21,10 +21,23 @@ export interface OnFrame {
   readonly film: readonly number[] | null;
 }
 
+/** What a pose that somebody set is held against. */
+export interface AroundHand extends Surroundings {
+  /** Poses that had been found there. */
+  readonly rivals: readonly PoseNumbers[];
+}
+
 /** Where refinement starts, and which of the six numbers stay, in the order of `poseArray`. */
 export interface HandStart {
   readonly start: PoseNumbers;
   readonly locked: readonly boolean[];
+  readonly around: AroundHand;
+}
+
+/** A pose that is there. */
+export interface HandSet {
+  readonly pose: PoseNumbers;
+  readonly around: AroundHand;
 }
 
 export interface FitFacts {
@@ -84,8 +97,8 @@ export interface HandProtocol {
   /** From a start onto the edges of the frame. */
   refineOnFrame: { input: HandStart & OnFrame; output: FitFacts; progress: never };
   /** How far a pose that somebody set is to be trusted, by the outline or by the frame. */
-  judgeOutline: { input: MatchInput & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
-  judgeOnFrame: { input: OnFrame & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
+  judgeOutline: { input: MatchInput & HandSet; output: Verdict; progress: never };
+  judgeOnFrame: { input: OnFrame & HandSet; output: Verdict; progress: never };
   /** What was seen along the outline at a pose. */
   readOnFrame: { input: OnFrame & { readonly pose: PoseNumbers }; output: EdgeFacts; progress: never };
   /** Throws for an outline of which only a part is known. */
