@@ -25,7 +25,7 @@ import { NO_LOCKS, type PoseNumbers } from '../../src/geometry/pose_numbers';
 import { FromHere } from '../../src/jobs/from_here';
 import { Poser } from '../../src/jobs/poser';
 import type { Services } from '../../src/jobs/services';
-import { surroundingsOf } from '../../src/results/surroundings';
+import { aroundHand, surroundingsOf } from '../../src/results/surroundings';
 import { framePoint } from '../../src/geometry/points';
 import { rememberTaste } from '../../src/keep/taste';
 import { keepLibraryOpen } from '../jobs/open_library';
@@ -61,6 +61,25 @@ describe('a pose set by hand', () => {
     store.redo();
     store.redo();
     expect(shown(store)).toEqual(OTHER);
+  });
+
+  it('is held against what had been found there, also when it is moved and refined again', () => {
+    const store = traced();
+    const found: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(POSE), bare(OTHER)], chosen: 0, reason: null, decided: true, verdict: null };
+    store.amend((doc) => withCell(doc, PLACE, { ...cell(store), result: found, resultOf: cell(store).outline }));
+    expect(aroundHand(store.doc, PLACE).rivals).toEqual([POSE, OTHER]);
+    store.perform(setPoseByHand(PLACE, { ...POSE, xRot: 20 }));
+    const verdict = { word: 'good', because: 'b' } as const;
+    store.perform(takeHandFit(PLACE, { candidate: bare({ ...POSE, xRot: 21 }), reason: 'r', verdict, onFrame: { film: null } }));
+    store.perform(setPoseByHand(PLACE, { ...POSE, xRot: 22 }));
+    expect(aroundHand(store.doc, PLACE).rivals).toEqual([POSE, OTHER]);
+    const view = { frameIndex: 0, component: 'femur', overlayOpacity: 0.5 } as const;
+    const text = writeSession({ doc: store.doc, view, files: [], audit: null }, 'test', new Date(0)).join('');
+    expect(aroundHand(readSession(text).doc, PLACE).rivals).toEqual([POSE, OTHER]);
+    store.undo();
+    store.undo();
+    store.undo();
+    expect(cell(store).result).toBe(found);
   });
 
   it('outlives changes of the outline, and its deletion', () => {
