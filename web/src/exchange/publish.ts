@@ -103,7 +103,7 @@ const SAID: Readonly<Record<Exclude<keyof PoseFaults, 'missing' | 'doubtful'>, s
   unrefined: 'Frames with a pose that was not refined',
   unknown: 'Frames with a pose from a file, which does not say how it was found',
   outdated: 'Frames with a pose that was found with another model, calibration or library',
-  unchecked: 'Frames that no person has checked',
+  unchecked: 'Frames of which no person has checked both poses',
 };
 
 /** What the report's own lists do not have. */

@@ -51,7 +51,7 @@ export function ExportFaults({ state }: { state: State }) {
           {found.map(({ of, fault, frames }) => (
             <li key={`${of} ${fault}`}>
               {together.length > 1 ? `${titleOf(of)}: ` : ''}
-              {words.fault(frames.length, words[fault], inRuns(frames))}
+              {words.fault(frames.length, kind === 'poses' && fault === 'unchecked' ? words.uncheckedOne : words[fault], inRuns(frames))}
             </li>
           ))}
         </ul>

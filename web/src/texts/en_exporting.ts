@@ -76,6 +76,7 @@ export const exporting = {
     outdated: 'with a pose that was found with another model, calibration or library',
     doubtful: 'with a doubtful pose',
     unchecked: 'of which nobody has checked both poses',
+    uncheckedOne: 'whose pose nobody has checked',
     fault: (count: number, what: string, which: string) => `${count} ${count === 1 ? 'frame' : 'frames'} ${what}: ${which}`,
     none: 'All poses are refined, good and checked.',
     waiting: (frames: number) => `${frames} ${frames === 1 ? 'frame is' : 'frames are'} still being worked out.`,

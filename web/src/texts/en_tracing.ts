@@ -94,6 +94,7 @@ export const tracing = {
     snapped: (greatest: string, rms: string, isCut: boolean) =>
       `Snapped to the edges: ${greatest} px at most, ${rms} px on the whole.${isCut ? ' Where it crossed itself the loop was cut off.' : ''} Ctrl+Z takes it back.`,
     noPixels: (frame: string) => `The pixels of ${frame} are not here: drop the file on the page.`,
+    isChecked: (part: string) => `You have checked this ${part}: click again to find it anew.`,
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',
     oneClickJob: (component: string, frame: number) => `${component} of frame ${frame} by one click`,

@@ -3,6 +3,7 @@ import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { gaveWay } from '../document/followed';
 import { indexOfFrame } from '../document/frame_index';
+import { checkState, markOf } from '../document/marks';
 import type { Store } from '../document/store';
 import { cellKey, cellOf, chosenCandidate, type FrameEntry, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -41,6 +42,8 @@ export class OneClick {
   readonly #asked = new Map<string, Asked>();
   readonly #film: { ready(): Promise<void> };
   #turn: Promise<void> = Promise.resolve();
+  /** The checked cell into which the last click went. */
+  #warned: string | null = null;
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>, film: { ready(): Promise<void> }) {
     this.#services = services;
@@ -53,6 +56,7 @@ export class OneClick {
     const frame = store.doc.frames.find(({ id }) => id === place.frameId);
     if (!frame) return;
     const key = cellKey(place.frameId, place.component);
+    if (this.#isGuarded(key, place)) return store.say('info', texts.tracing.said.isChecked(texts.component[place.component]));
     this.#asked.get(key)?.abort.abort();
     const asked = { prompt, place, frame, bright, pose, abort: new AbortController() };
     this.#asked.set(key, asked);
@@ -63,6 +67,15 @@ export class OneClick {
     this.#turn = Promise.all([before, answered]).then(() => undefined);
     await answered;
     if (this.#asked.get(key) === asked) this.#asked.delete(key);
+  }
+
+  /** Whether a click would take the place of what a person has checked: it does from the second on. */
+  #isGuarded(key: string, place: Place): boolean {
+    const { doc } = this.#services.store;
+    const isFirst = this.#warned !== key;
+    const isGuarded = isFirst && checkState(cellOf(doc, place.frameId, place.component), markOf(doc, place)) === 'yes';
+    this.#warned = isGuarded ? key : null;
+    return isGuarded;
   }
 
   /** Its job is shown from the click on; what it knows of the film it looks up when its turn comes. */

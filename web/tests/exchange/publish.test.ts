@@ -71,7 +71,7 @@ describe('what is published', () => {
     expect(settings).toContainEqual(['poses of the femur', 'refined: 2 of 3; by hand: 1 of 3']);
     expect(remarks[0]).toBe('Frames that could not be read: 0003.png. They are not counted, neither in numbers of frames nor in times.');
     expect(remarks).toContain('Frames with a pose that was not refined: 2 (1 of 3).');
-    expect(remarks).toContain('Frames that no person has checked: 2\u20133 (2 of 3).');
+    expect(remarks).toContain('Frames of which no person has checked both poses: 2\u20133 (2 of 3).');
   });
 
   it('names a few files of frames, and many by one digest that their order changes', async () => {

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { OWN_AXES, setAxes } from '../../src/document/axes';
-import { bare } from '../../src/document/hand_poses';
+import { bare, setPoseByHand } from '../../src/document/hand_poses';
+import { toggleChecked } from '../../src/document/marks';
 import { addFrames, addPoint, setCalibration, setModel, withCell } from '../../src/document/commands';
 import { currentRefusal, Store } from '../../src/document/store';
 import { type Axes, cellOf } from '../../src/document/types';
@@ -50,6 +51,30 @@ describe('one click', () => {
     await asked[1]!.answer();
     expect([outlineOf('femur'), outlineOf('tibia')].map((outline) => outline?.closed)).toEqual([true, true]);
     expect(store.ui.jobs).toEqual([]);
+  });
+
+  it('into a pose that a person has checked asks once more', async () => {
+    const { store, asked, click } = bench();
+    const place = { frameId: 'f', component: 'femur' } as const;
+    const pose = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+    store.perform(setPoseByHand(place, pose));
+    store.perform(toggleChecked(place));
+    click(1);
+    await settle();
+    expect([asked.length, store.ui.notice?.text]).toEqual([0, 'You have checked this femur: click again to find it anew.']);
+    // Another cell is none of its business.
+    store.selectComponent('tibia');
+    click(2);
+    await settle();
+    expect(asked.length).toBe(1);
+    await asked[0]!.answer();
+    store.selectComponent('femur');
+    click(1);
+    await settle();
+    expect(asked.length).toBe(1);
+    click(1);
+    await settle();
+    expect(asked.length).toBe(2);
   });
 
   it('says of a pose what its verdict says, so that nothing beside it says otherwise', async () => {
