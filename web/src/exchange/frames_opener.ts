@@ -116,6 +116,6 @@ function folderOf(path: string): string | null {
 
 function studyName(frame: FrameEntry): string {
   const name = frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '');
-  // A number is no name of a study.
-  return /^\d*$/.test(name) ? texts.said.study : name;
+  // A number is no name of a study, nor what every film calls its frames.
+  return /^(\d*|[a-z]|im|img|image|frame|slice|pic|picture|film|scan)$/i.test(name) ? texts.said.study : name;
 }

@@ -106,6 +106,16 @@ const SAID: Readonly<Record<Exclude<keyof PoseFaults, 'missing' | 'doubtful'>, s
   unchecked: 'Frames of which no person has checked both poses',
 };
 
+/** What people wrote at frames, in their order. */
+function notesOf(doc: Doc): string[] {
+  return doc.frames.flatMap(({ id }, index) =>
+    COMPONENT_NAMES.flatMap((component) => {
+      const note = markOf(doc, { frameId: id, component }).note.replace(/\s+/g, ' ').trim();
+      return note === '' ? [] : [`Note on the ${component} in frame ${index + 1}: ${note}`];
+    }),
+  );
+}
+
 /** What the report's own lists do not have. */
 function remarksOf(doc: Doc): string[] {
   const faults = faultsOf(doc);
@@ -115,5 +125,5 @@ function remarksOf(doc: Doc): string[] {
   });
   const assumed = COMPONENT_NAMES.filter((component) => !doc.components[component].axes && knownAxes(doc.components[component]));
   if (doc.unread.length > 0) remarks.unshift(`Frames that could not be read: ${doc.unread.join(', ')}. They are not counted, neither in numbers of frames nor in times.`);
-  return [...remarks, ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
+  return [...remarks, ...notesOf(doc), ...assumed.map((component) => `The axes of the ${component} are taken to be those of its file: there is no model of it.`)];
 }

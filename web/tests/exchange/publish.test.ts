@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { addFrames, setRate, setSide, withCell } from '../../src/document/commands';
 import { bare } from '../../src/document/hand_poses';
-import { toggleChecked } from '../../src/document/marks';
+import { setNote, toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed, Result } from '../../src/document/types';
 import { publishedFilm } from '../../src/exchange/publish';
@@ -67,10 +67,12 @@ describe('what is published', () => {
     set(store, 1, 'femur', posed({ from: 'hand', candidates: [bare(POSE)], verdict: null }));
     store.amend((doc) => ({ ...doc, unread: ['0003.png'] }));
     for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f0', component }));
+    store.perform(setNote({ frameId: 'f1', component: 'tibia' }, ' blurred,\nsee <3> '));
     const { settings, remarks } = await publishedFilm(store.doc, numbers(3));
     expect(settings).toContainEqual(['poses of the femur', 'refined: 2 of 3; by hand: 1 of 3']);
     expect(remarks[0]).toBe('Frames that could not be read: 0003.png. They are not counted, neither in numbers of frames nor in times.');
     expect(remarks).toContain('Frames with a pose that was not refined: 2 (1 of 3).');
+    expect(remarks).toContain('Note on the tibia in frame 2: blurred, see <3>');
     expect(remarks).toContain('Frames of which no person has checked both poses: 2\u20133 (2 of 3).');
   });
 
