@@ -16,8 +16,8 @@ import { formatNumber } from '../../texts/numbers';
 import { later } from '../../texts/later';
 import { asSentence } from '../../texts/sentences';
 import { texts } from '../../texts/texts';
-import { drawRival, isAtLeft, type RivalScene } from './rival_picture';
-import { otherThan } from '../../terms/component';
+import { cornerBeside, drawRival, type RivalScene } from './rival_picture';
+import { COMPONENT_NAMES, otherThan } from '../../terms/component';
 import '../../styles/check.css';
 
 /** On the film while somebody goes through what is doubtful: why it is, its rivals with the joint that each makes, and what can be done. */
@@ -58,11 +58,15 @@ function Doubtful({ state, result, counted: { at, of } }: { state: State; result
   const { services } = useApp();
   const words = later.check;
   const scene = sceneOf(state, services.studio);
-  const pose = result.candidates[result.chosen]?.pose ?? null;
-  // Where the implant is not.
-  const side = useMemo(() => (scene && pose && isAtLeft(services.studio, scene, pose) ? 'right' : 'left'), [scene?.frame.id, scene?.model, pose, scene && services.studio.holdsFrame(scene.frame.id)]);
+  const drawn = COMPONENT_NAMES.flatMap((component) => {
+    const scene = sceneOf(state, services.studio, component);
+    const pose = scene && chosenCandidate(cellOf(state.history.present, scene.frame.id, component))?.pose;
+    return scene && pose ? [{ scene, pose }] : [];
+  });
+  // Where the implants are not.
+  const corner = useMemo(() => cornerBeside(services.studio, drawn), [...COMPONENT_NAMES.map((component) => drawn.find(({ scene }) => scene.component === component)?.pose), scene?.frame.id, scene && services.studio.holdsFrame(scene.frame.id)]);
   return (
-    <section class={`guide check at-${side} ${state.ui.component}`} aria-label={words.region}>
+    <section class={`guide check ${corner} ${state.ui.component}`} aria-label={words.region}>
       <p class="guide-title">{at === 0 ? words.taken : words.title(at, of)}</p>
       <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
       {result.candidates.length > 1 && <Rivals state={state} result={result} />}
@@ -126,10 +130,9 @@ function AskSide() {
 /** Keys for more there are not. */
 const MOST = 3;
 
-/** What the selected component is drawn with in the current frame. */
-function sceneOf(state: State, studio: Studio): RivalScene | null {
+/** What a component, the selected one if none is named, is drawn with in the current frame. */
+function sceneOf(state: State, studio: Studio, component = state.ui.component): RivalScene | null {
   const { present: doc } = state.history;
-  const { component } = state.ui;
   const frame = currentFrame(state);
   const camera = cameraOf(doc, frame);
   const model = doc.components[component].model?.sha256;

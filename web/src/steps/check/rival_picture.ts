@@ -40,13 +40,24 @@ export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: Riva
   drawBorder(context, border, 1.5 / scale, light);
 }
 
-/** Whether most of the model is in the left half of the frame; false where it cannot be drawn. */
-export function isAtLeft(studio: Studio, scene: RivalScene, pose: PoseNumbers): boolean {
-  const whole = studio.holdsFrame(scene.frame.id) ? scratch(scene.frame) : null;
-  const border = whole ? borderAt(studio, scene, whole, pose) : [];
-  if (border.length === 0) return false;
-  const [left, , size] = squareAround(border);
-  return left + size / 2 < scene.frame.width / 2;
+/** Where something may lie on the frame. */
+export type Corner = `at-${'left' | 'right'} at-${'top' | 'bottom'}`;
+
+const CORNERS: readonly Corner[] = ['at-left at-top', 'at-right at-top', 'at-left at-bottom', 'at-right at-bottom'];
+
+/** The corner of the frame that models at these poses take least of, by their outlines; the first of equal ones. */
+export function cornerBeside(studio: Studio, drawn: readonly { readonly scene: RivalScene; readonly pose: PoseNumbers }[]): Corner {
+  const taken = [0, 0, 0, 0];
+  for (const { scene, pose } of drawn) {
+    const { frame } = scene;
+    const whole = studio.holdsFrame(frame.id) ? scratch(frame) : null;
+    const border = whole ? borderAt(studio, scene, whole, pose) : [];
+    for (let at = 0; at + 1 < border.length; at += 2) {
+      const corner = Number(border[at]! >= frame.width / 2) + 2 * Number(border[at + 1]! >= frame.height / 2);
+      taken[corner]! += 1;
+    }
+  }
+  return CORNERS[taken.indexOf(Math.min(...taken))]!;
 }
 
 /** Columns and rows by turns; none where the model cannot be drawn. */
