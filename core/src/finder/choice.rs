@@ -28,7 +28,7 @@
 
 mod film;
 
-pub use film::{FILM_MARGIN_DEG, FilmError, FilmFrame, FilmStep, choose_film};
+pub use film::{FILM_MARGIN_DEG, FilmError, FilmFrame, FilmStep, choose_film, rests_on_doubt};
 
 use core::fmt;
 

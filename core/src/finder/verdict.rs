@@ -116,6 +116,8 @@ pub enum Doubt {
         /// Its misfit, pixels.
         other_px: f64,
     },
+    /// The film decided, by frames that are doubtful themselves.
+    BesideDoubt,
     /// The other component is turned or tilted as in no knee.
     NoKnee {
         /// How far the mediolateral axes of both are apart, degrees.
@@ -256,6 +258,9 @@ impl fmt::Display for Doubt {
                 "another pose, {} away, fits as well ({} px), and nothing tells which is right",
                 Away(turn_deg, shift_mm),
                 Decimal::new(other_px, 2)
+            ),
+            Self::BesideDoubt => f.write_str(
+                "continuity with the frames beside it decided, and those are doubtful themselves",
             ),
             Self::NoKnee { apart_deg } => write!(
                 f,

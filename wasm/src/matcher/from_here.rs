@@ -171,6 +171,7 @@ impl Matcher {
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
     #[wasm_bindgen(js_name = refineOnFrame)]
+    #[allow(clippy::too_many_arguments)]
     pub fn refine_on_frame(
         &mut self,
         film: &FrameImage,

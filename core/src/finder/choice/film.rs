@@ -106,6 +106,18 @@ pub fn choose_film(
     Ok(())
 }
 
+/// Whether a frame was decided by its film though the nearest poses before and after it are doubtful themselves: that it goes with those says little.
+/// `good` has a verdict for each frame, none where there is no pose.
+#[must_use]
+pub fn rests_on_doubt(at: usize, choice: &Choice, good: &[Option<bool>]) -> bool {
+    let (before, after) = good.split_at(at.min(good.len()));
+    let before = before.iter().rev().find_map(|good| *good);
+    let after = after.iter().skip(1).find_map(|good| *good);
+    matches!(choice.reason, Reason::Film { .. })
+        && before.or(after).is_some()
+        && ![before, after].contains(&Some(true))
+}
+
 impl FilmStep {
     fn new(contenders: &Contenders<'_>) -> Self {
         let mut step = Self {

@@ -5,8 +5,9 @@ use std::fmt;
 use anyhow::Result;
 use fluoropose::finder::choice::{
     Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film,
+    rests_on_doubt,
 };
-use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
+use fluoropose::finder::{Candidate, Doubt, Limits, Verdict, contenders, judge};
 use fluoropose::joint::beside::Lying;
 use fluoropose::pose::Pose;
 
@@ -120,9 +121,25 @@ pub fn decide(
     let mut steps = vec![FilmStep::default(); frames.len()];
     choose_film(&frames, &mut steps, &mut choices)?;
     let decided = choices.into_iter().zip(film);
-    Ok(decided
+    let mut decided: Vec<Option<Decision>> = decided
         .map(|(choice, frame)| Decision::of(choice?, &frame.candidates))
-        .collect())
+        .collect();
+    doubt_between_doubts(&mut decided);
+    Ok(decided)
+}
+
+/// Makes frames doubtful that the film decided, by frames that are doubtful.
+fn doubt_between_doubts(film: &mut [Option<Decision>]) {
+    let is_good = |one: &Decision| matches!(one.verdict, Verdict::Good);
+    let good: Vec<Option<bool>> = film.iter().map(|one| one.as_ref().map(is_good)).collect();
+    for (at, one) in film.iter_mut().enumerate() {
+        if let Some(one) = one
+            .as_mut()
+            .filter(|one| rests_on_doubt(at, &one.choice, &good))
+        {
+            one.verdict = one.verdict.or_doubt(Some(Doubt::BesideDoubt));
+        }
+    }
 }
 
 impl Decision {

@@ -136,6 +136,30 @@ fn frames_without_poses_have_no_choice_and_do_not_break_the_chain() {
 }
 
 #[test]
+fn a_frame_that_its_film_decided_is_as_good_as_what_it_goes_with() {
+    let choice = |reason| Choice {
+        index: 0,
+        reason,
+        open: None,
+        no_knee_deg: None,
+    };
+    let by_film = choice(Reason::Film { saved_deg: 5.0 });
+    let (yes, no) = (Some(true), Some(false));
+    assert!(rests_on_doubt(1, &by_film, &[no, yes, no]));
+    // The nearest ones count, across frames without a pose.
+    assert!(rests_on_doubt(2, &by_film, &[yes, no, yes, None, no]));
+    assert!(!rests_on_doubt(2, &by_film, &[no, None, yes, None, yes]));
+    assert!(!rests_on_doubt(1, &by_film, &[yes, yes, no]));
+    assert!(rests_on_doubt(0, &by_film, &[yes, no]));
+    assert!(!rests_on_doubt(0, &by_film, &[yes, None]));
+    let by_tilt = choice(Reason::Tilt {
+        chosen_deg: 0.0,
+        other_deg: 5.0,
+    });
+    assert!(!rests_on_doubt(1, &by_tilt, &[no, yes, no]));
+}
+
+#[test]
 fn memory_of_another_length_is_refused() {
     let frames = [FilmFrame::default(); 3];
     let error = choose_film(&frames, &mut [FilmStep::default(); 2], &mut [None; 3]);
