@@ -66,16 +66,7 @@ pub struct Args {
 /// # Errors
 /// For files that cannot be read or written, or that differ in their number of frames.
 pub fn run(args: Args) -> Result<u8> {
-    let (femur, tibia) = (read_poses(&args.femur)?, read_poses(&args.tibia)?);
-    if femur.len() != tibia.len() {
-        bail!(
-            "{} has {} frames but {} has {}: both must be of the same sequence",
-            args.femur.display(),
-            femur.len(),
-            args.tibia.display(),
-            tibia.len()
-        );
-    }
+    let [femur, tibia] = read_both(&args)?;
     let side = of_body(args.side);
     let part = |file: &Option<PathBuf>, words: &Option<String>, role| {
         Part::read(file.as_deref(), words.as_deref(), role)
@@ -128,6 +119,21 @@ pub fn run(args: Args) -> Result<u8> {
         return Ok(exit::NOTHING_FOUND);
     }
     Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
+}
+
+/// The poses of both components, a frame each.
+fn read_both(args: &Args) -> Result<[Vec<Option<Pose>>; 2]> {
+    let (femur, tibia) = (read_poses(&args.femur)?, read_poses(&args.tibia)?);
+    if femur.len() != tibia.len() {
+        bail!(
+            "{} has {} frames but {} has {}: both must be of the same sequence",
+            args.femur.display(),
+            femur.len(),
+            args.tibia.display(),
+            tibia.len()
+        );
+    }
+    Ok([femur, tibia])
 }
 
 /// The table, and what is told of it.
