@@ -233,7 +233,7 @@ async function otherForms(page) {
   await report.getByRole('heading', { name: /: joint motion$/ }).waitFor();
   await screenshot(page, 'export report');
   const html = (await savedFile(page)).buffer.toString();
-  for (const words of ['empty everywhere: 4', 'femoral model', '<svg', 'that no person has checked', 'Frames with a pose from a file']) assert(html.includes(words), words);
+  for (const words of ['empty everywhere: 4', 'femoral model', '<svg', 'of which no person has checked both poses', 'Frames with a pose from a file']) assert(html.includes(words), words);
 }
 
 /** Nothing is written, and the page says so. @param {Page} page */
