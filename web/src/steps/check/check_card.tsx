@@ -116,13 +116,15 @@ function AskSide() {
   return (
     <p class="guide-text">
       {later.check.askSide} {told && `${later.curves.needs.told[told]} `}
-      {(['left', 'right'] as const).map((side) => (
-        <Fragment key={side}>
-          <button type="button" class="button small" onClick={() => store.perform(setSide(side))}>
-            {texts.top.sides[side]}
-          </button>{' '}
-        </Fragment>
-      ))}
+      <span class="check-sides">
+        {(['left', 'right'] as const).map((side) => (
+          <Fragment key={side}>
+            <button type="button" class="button small" onClick={() => store.perform(setSide(side))}>
+              {texts.top.sides[side]}
+            </button>{' '}
+          </Fragment>
+        ))}
+      </span>
     </p>
   );
 }
