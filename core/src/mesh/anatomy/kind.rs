@@ -7,6 +7,9 @@
 //! 0.08 of its radius apart, a bow, whose inner side counts among its surface and reaches nowhere, half as much again and more, unless
 //! it is thick.
 //!
+//! A tray on a long stem has them far apart too, and less of its surface is its plate: of what does not run along the stem, the plate is
+//! nearly all.
+//!
 //! All of these are areas over areas and lengths over lengths, in the frame of the surface's own normals: units, axes, winding and
 //! the size of triangles do not matter. What is neither a plate nor a bow, or a little of both, tells nothing.
 
@@ -23,7 +26,11 @@ const BOX: f64 = 1.0 / 3.0;
 /// The middles of a bow's surface and of its outermost points lie so far apart, of its radius, at least.
 const BOW: f64 = 0.11;
 /// Faces within 15 degrees of a direction, or of its opposite, face it: their cosine.
-const FACING: f64 = 0.965_925_826_289_068_3;
+pub(super) const FACING: f64 = 0.965_925_826_289_068_3;
+/// Faces within 15 degrees of running along a direction do: the sine of that.
+const ASIDE: f64 = 0.258_819_045_102_520_76;
+/// Of what does not run along the way to its outermost points a tray has at least this part across it. A bow has less than half.
+const STANDING: f64 = 2.0 / 3.0;
 
 /// The component that a model has the shape of; `None` where its shape tells neither, or it has no surface. It need not be closed.
 #[must_use]
@@ -33,8 +40,26 @@ pub fn component_by_shape(mesh: &Mesh<'_>) -> Option<KneeComponent> {
     if plate > PLATE {
         return Some(KneeComponent::Tibia);
     }
-    let is_bow = plate < BOX && frame.hollow(mesh)? > BOW;
+    let out = frame.outwards(mesh)?;
+    let is_bow =
+        plate < BOX && norm(&out) > BOW * mesh.bounds().radius && !is_on_a_stem(mesh, &out);
     is_bow.then_some(KneeComponent::Femur)
+}
+
+/// Whether a plate stands across a direction, and little else but what runs along it: a tray whose stem has more surface than its plate.
+fn is_on_a_stem(mesh: &Mesh<'_>, out: &Vector3) -> bool {
+    let Some(along) = unit(out) else {
+        return false;
+    };
+    let (mut facing, mut rest) = (0.0, 0.0);
+    for (_, area, normal) in faces(mesh) {
+        let part = dot(&normal, &along).abs();
+        if part > ASIDE * area {
+            rest += area;
+            facing += if part >= FACING * area { area } else { 0.0 };
+        }
+    }
+    facing > STANDING * rest
 }
 
 /// A surface and the frame of its own normals.
@@ -97,8 +122,8 @@ impl Surface {
         cells
     }
 
-    /// How far the middle of the surface lies from that of its outermost points, of its radius.
-    fn hollow(&self, mesh: &Mesh<'_>) -> Option<f64> {
+    /// The way from the middle of the surface to that of its outermost points, mm.
+    fn outwards(&self, mesh: &Mesh<'_>) -> Option<Vector3> {
         let mut sum = [0.0; 3];
         for number in 0..ROUND {
             let sign = |bit: usize| if number >> bit & 1 == 0 { 1.0 } else { -1.0 };
@@ -108,7 +133,7 @@ impl Surface {
             sum = add(&sum, &vertices(mesh).max_by(far)?);
         }
         let outermost = scale(&sum, 1.0 / ROUND as f64);
-        Some(norm(&subtract(&outermost, &self.middle)) / mesh.bounds().radius)
+        Some(subtract(&outermost, &self.middle))
     }
 }
 
@@ -148,7 +173,7 @@ fn unit(vector: &Vector3) -> Option<Vector3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::edges::fake::add_box;
+    use crate::mesh::edges::fake::{add_box, add_prism, ellipse};
     use crate::pose::{EulerPose, Pose};
     use proptest::prelude::*;
     use std::vec::Vec;
@@ -281,6 +306,25 @@ mod tests {
             if (part - 5.0 / 12.0).abs() > 1e-4 {
                 prop_assert_eq!(told, (part > 5.0 / 12.0).then_some(KneeComponent::Tibia));
             }
+        }
+    }
+
+    /// Its middle lies far from that of its outermost points too.
+    #[test]
+    fn a_tray_on_a_stem_with_more_surface_than_its_plate_is_no_bow() {
+        for length in [60.0, 100.0, 150.0, 200.0] {
+            let (mut corners, mut triangles) = tray(4.0, [1.5, 20.0, 25.0]);
+            let stem = ellipse([0.0; 2], [9.0; 2]);
+            add_prism(&stem, [-length, 0.0], &mut corners, &mut triangles);
+            let told = told(&(corners, triangles));
+            assert_ne!(told, Some(KneeComponent::Femur), "{length} mm");
+        }
+        for length in [40.0, 100.0, 160.0] {
+            let (mut corners, mut triangles) = bow(200.0, 6.0, 60.0);
+            let stem = ellipse([0.0, 30.0], [7.0; 2]);
+            add_prism(&stem, [-length, 24.0], &mut corners, &mut triangles);
+            let told = told(&(corners, triangles));
+            assert_eq!(told, Some(KneeComponent::Femur), "{length} mm");
         }
     }
 

@@ -167,6 +167,35 @@ pub(crate) fn add_box(
     }
 }
 
+/// Appends what an outline in x and z leaves between two heights along y. Its corners alone are vertices, and all of it is seen from its first.
+pub(crate) fn add_prism(
+    outline: &[[f32; 2]],
+    heights: [f32; 2],
+    vertices: &mut Vec<[f32; 3]>,
+    triangles: &mut Vec<[u32; 3]>,
+) {
+    let (first, count) = (vertices.len() as u32, outline.len() as u32);
+    for y in heights {
+        vertices.extend(outline.iter().map(|&[x, z]| [x, y, z]));
+    }
+    for end in [0, count] {
+        triangles.extend((2..count).map(|k| [0, k - 1, k].map(|corner| first + end + corner)));
+    }
+    for k in 0..count {
+        let [a, b] = [k, (k + 1) % count].map(|corner| first + corner);
+        triangles.extend([[a, b, a + count], [b, b + count, a + count]]);
+    }
+}
+
+/// The outline of an ellipse for [`add_prism`], from its middle and half axes along x and z.
+pub(crate) fn ellipse([x, z]: [f32; 2], [a, b]: [f32; 2]) -> Vec<[f32; 2]> {
+    let place = |step: u8| {
+        let (sin, cos) = libm::sincosf(core::f32::consts::TAU * f32::from(step) / 32.0);
+        [x + a * cos, z + b * sin]
+    };
+    (0..32).map(place).collect()
+}
+
 /// Poses of any turn, moved by up to so much along each axis, mm.
 pub(crate) fn placed_within(mm: f64) -> impl Strategy<Value = Pose> {
     let angle = -180.0..180.0f64;
