@@ -43,7 +43,7 @@ pub fn mediolateral_axis(mesh: &Mesh<'_>, planes: &[SymmetryPlane]) -> Option<Ve
 }
 
 /// The normal of a tray's plate, perpendicular to `mediolateral`, model coordinates: the direction that most of its surface
-/// faces, forwards or backwards, by area. `None` of a mesh without area.
+/// faces, forwards or backwards, by area; a stem, which faces all round, does not turn it. `None` of a mesh without area.
 #[must_use]
 pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Vector3> {
     let mut tensor: Matrix3 = [[0.0; 3]; 3];
@@ -64,7 +64,31 @@ pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Ve
         }
     }
     let ([largest, ..], [normal, ..]) = eigen_symmetric(&tensor);
-    (largest > 0.0).then(|| upright(normal))
+    (largest > 0.0).then(|| upright(most_faced(mesh, mediolateral, normal)))
+}
+
+/// Directions that are tried beside the first, over half a turn.
+const AROUND: u32 = 36;
+
+/// `first`, perpendicular to `across`, where no direction farther than 15 degrees from it has more of the surface within 15 degrees, else that
+/// direction: a long stem turns more of its surface forwards and backwards than a plate has, but all round.
+fn most_faced(mesh: &Mesh<'_>, across: &Vector3, first: Vector3) -> Vector3 {
+    let second = cross(across, &first);
+    let mut best = (first, 0.0);
+    for step in 0..AROUND {
+        let turn = core::f64::consts::PI * f64::from(step) / f64::from(AROUND);
+        let along = signs::between(&first, &second, turn);
+        let (sum, area) = signs::facing(mesh, &along, kind::FACING);
+        if area > best.1 {
+            best = (sum, area);
+        }
+    }
+    let square = subtract(&best.0, &scale(across, dot(&best.0, across)));
+    let length = norm(&square);
+    if length > 0.0 && dot(&square, &first).abs() < kind::FACING * length {
+        return scale(&square, 1.0 / length);
+    }
+    first
 }
 
 /// A component of a knee.
@@ -79,7 +103,8 @@ pub enum KneeComponent {
 /// The rotation from the field's axes (x anteroposterior, y superoinferior, z mediolateral) to the model's own, as far as the
 /// shape tells them and without their signs; of a femoral component z alone, x and y being any that are perpendicular to it.
 /// `pose.compose(&axes)` is then the pose of a model with the field's axes: what [`crate::finder::choice`] compares. The
-/// identity for models that have these axes themselves; `None` where the shape has no plane of symmetry.
+/// identity for models that have these axes themselves; `None` where the shape has no plane of symmetry, and of a tray with the
+/// proportions of one for a single condyle, whose plane is another.
 #[must_use]
 pub fn field_axes(
     mesh: &Mesh<'_>,
@@ -92,6 +117,9 @@ pub fn field_axes(
         KneeComponent::Femur => perpendicular(&z),
     };
     let x = cross(&y, &z);
+    if component == KneeComponent::Tibia && signs::is_of_one_condyle(mesh, &x, &z, component) {
+        return None;
+    }
     let found = Pose {
         rotation: core::array::from_fn(|row| [x[row], y[row], z[row]]),
         translation: [0.0; 3],

@@ -1,7 +1,7 @@
 //! Which way along its axes a component is superior and anterior, from its shape.
 //!
 //! A femoral component seen from the side is a bow that opens towards the bone, upwards; its anterior flange is the longer
-//! arm. A tray's plate lies on top of its keel, and its border is notched behind, for the ligament.
+//! arm, and what stands between the arms a stem. A tray's plate lies on top of its keel, and its border is notched behind, for the ligament.
 
 use super::{KneeComponent, mediolateral_axis, own_axes, superoinferior_axis};
 use crate::math::{Vector3, add, cross, dot, norm, radians, scale, sin_cos, subtract};
@@ -25,7 +25,8 @@ pub struct AnatomicalAxes {
 /// The anatomical axes of a component as its shape tells them; `planes` come from
 /// [`crate::mesh::symmetry::symmetry_planes`]. Where the file's own
 /// axes, in some order, lie within [`super::OWN_AXIS_DEG`] of those found, across the knee within [`super::OWN_ACROSS_DEG`], they are taken.
-/// `None` where the shape has no plane of symmetry or no up.
+/// `None` where the shape has no plane of symmetry or no up, as a plate on nothing, or the proportions of a component for one
+/// condyle.
 #[must_use]
 pub fn anatomical_axes(
     mesh: &Mesh<'_>,
@@ -35,10 +36,13 @@ pub fn anatomical_axes(
     let across = mediolateral_axis(mesh, planes)?;
     let up = match component {
         KneeComponent::Femur => opening(mesh, &across)?,
-        KneeComponent::Tibia => above_the_keel(mesh, &superoinferior_axis(mesh, &across)?),
+        KneeComponent::Tibia => above_the_keel(mesh, &superoinferior_axis(mesh, &across)?)?,
     };
     let up = square_to(&up, &across)?;
     let forward = cross(&up, &across);
+    if is_of_one_condyle(mesh, &forward, &across, component) {
+        return None;
+    }
     let (forward, front_is_known) = match component {
         KneeComponent::Femur => along_the_longer_arm(mesh, &forward, &up),
         KneeComponent::Tibia => away_from_the_notch(mesh, &forward, &across, &up),
@@ -81,7 +85,7 @@ pub(super) fn faces<'m>(
 }
 
 /// The first of two perpendicular directions turned towards the second, radians.
-fn between(first: &Vector3, second: &Vector3, turn: f64) -> Vector3 {
+pub(super) fn between(first: &Vector3, second: &Vector3, turn: f64) -> Vector3 {
     let (sin, cos) = sin_cos(turn);
     add(&scale(first, cos), &scale(second, sin))
 }
@@ -125,23 +129,25 @@ fn opening(mesh: &Mesh<'_>, across: &Vector3) -> Option<Vector3> {
 fn cut_facing(mesh: &Mesh<'_>, out: &Vector3, across: &Vector3, area: f64) -> Option<Vector3> {
     let aside = cross(across, out);
     let steps = CUT_WITHIN_DEG as i32;
-    let facing = |along: &Vector3| {
-        let near = faces(mesh).filter(|(_, area, normal)| {
-            *area > 0.0 && dot(normal, along).abs() > CUT_COSINE * area
-        });
-        near.fold(([0.0; 3], 0.0), |(sum, all), (_, area, normal)| {
-            let sign = if dot(&normal, along) < 0.0 { -1.0 } else { 1.0 };
-            (add(&sum, &scale(&normal, sign)), all + area)
-        })
-    };
     let directions = (-steps..=steps).map(|step| between(out, &aside, radians(f64::from(step))));
-    let best = directions.map(|along| facing(&along));
+    let best = directions.map(|along| facing(mesh, &along, CUT_COSINE));
     let (sum, most) = best.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     (most > CUT_PART * area).then(|| scale(&sum, 1.0 / norm(&sum)))
 }
 
-/// A tray's axis so directed that its plate, which faces along it, is above the middle.
-fn above_the_keel(mesh: &Mesh<'_>, axis: &Vector3) -> Vector3 {
+/// What of a surface faces a direction or its opposite, to within an angle of this cosine: normals turned towards it, as long as their
+/// areas, summed, and the doubled area.
+pub(super) fn facing(mesh: &Mesh<'_>, along: &Vector3, cosine: f64) -> (Vector3, f64) {
+    let near = faces(mesh)
+        .filter(|(_, area, normal)| *area > 0.0 && dot(normal, along).abs() > cosine * area);
+    near.fold(([0.0; 3], 0.0), |(sum, all), (_, area, normal)| {
+        let sign = if dot(&normal, along) < 0.0 { -1.0 } else { 1.0 };
+        (add(&sum, &scale(&normal, sign)), all + area)
+    })
+}
+
+/// A tray's axis so directed that its plate, which faces along it, is above the middle; `None` where nothing hangs from it that tells.
+fn above_the_keel(mesh: &Mesh<'_>, axis: &Vector3) -> Option<Vector3> {
     let (low, high) = reach(vertices(mesh), axis);
     let (sum, weight) = faces(mesh).fold((0.0, 0.0), |(sum, all), (middle, area, normal)| {
         let facing = if area > 0.0 {
@@ -151,8 +157,13 @@ fn above_the_keel(mesh: &Mesh<'_>, axis: &Vector3) -> Vector3 {
         };
         (sum + facing * dot(&middle, axis), all + facing)
     });
-    let below = weight > 0.0 && sum / weight < (low + high) / 2.0;
-    scale(axis, if below { -1.0 } else { 1.0 })
+    let above = if weight > 0.0 {
+        sum / weight - (low + high) / 2.0
+    } else {
+        0.0
+    };
+    let (up, is_known) = directed(axis, above, high - low);
+    is_known.then_some(up)
 }
 
 /// How far points reach along an axis.
@@ -167,16 +178,32 @@ fn reach(points: impl Iterator<Item = Vector3>, axis: &Vector3) -> (f64, f64) {
 /// Of two sides one is told from the other where they differ by more than this part of their size.
 const TOLD_PART: f64 = 0.04;
 
+/// The arms of a bow lie within this part of its depth from either end; what stands between them and reaches higher is a stem or a box.
+const ARM_PART: f64 = 0.25;
+/// A bow that is higher than so many times its depth has a stem, which may lean over an arm.
+const TALL: f64 = 1.3;
+
 /// The direction of the arm that reaches higher, and whether one does.
 fn along_the_longer_arm(mesh: &Mesh<'_>, forward: &Vector3, up: &Vector3) -> (Vector3, bool) {
     let (back, front) = reach(vertices(mesh), forward);
-    let middle = (back + front) / 2.0;
+    let (middle, depth) = ((back + front) / 2.0, front - back);
     let (low, high) = reach(vertices(mesh), up);
-    let arm = |sign: f64| {
-        let side = vertices(mesh).filter(|v| sign * (dot(v, forward) - middle) > 0.0);
-        reach(side, up).1
+    let arms = |from: f64| {
+        [1.0, -1.0].map(|sign| {
+            let off = |v: &Vector3| sign * (dot(v, forward) - middle);
+            reach(vertices(mesh).filter(|v| off(v) > from), up).1
+        })
     };
-    directed(forward, arm(1.0) - arm(-1.0), high - low)
+    let [ahead, behind] = arms((0.5 - ARM_PART) * depth);
+    let top = ahead.max(behind);
+    if top < high {
+        let is_tall = top - low > TALL * depth;
+        let (forward, is_known) = directed(forward, ahead - behind, top - low);
+        return (forward, is_known && !is_tall);
+    }
+    let [ahead, behind] = arms(0.0);
+    let (forward, is_known) = directed(forward, ahead - behind, high - low);
+    (forward, is_known && high - low <= TALL * depth)
 }
 
 /// The direction in which a tray's border is not notched, and whether it is notched on one side alone.
@@ -195,16 +222,82 @@ fn away_from_the_notch(
     let (left, right) = reach(vertices(mesh), across);
     let (back, front) = reach(vertices(mesh), forward);
     let (width, middle) = (right - left, (left + right) / 2.0);
-    let plate = vertices(mesh).filter(|v| dot(v, up) > high - PLATE * (high - low));
-    let beside = |v: &Vector3| (dot(v, across) - middle).abs() / width;
-    let depth = |sign: f64| {
-        let ahead = |v: &Vector3| sign * dot(v, forward);
-        let most = |a: f64, v: Vector3| a.max(ahead(&v));
-        let lobes = plate.clone().filter(|v| beside(v) > LOBES);
-        let notch = plate.clone().filter(|v| beside(v) < NOTCH);
-        lobes.fold(f64::NEG_INFINITY, most) - notch.fold(f64::NEG_INFINITY, most)
+    let opposite = scale(across, -1.0);
+    let plate = (*up, high - PLATE * (high - low));
+    let beyond = |part: f64| {
+        [
+            (*across, middle + part * width),
+            (opposite, part * width - middle),
+        ]
     };
-    directed(forward, depth(-1.0) - depth(1.0), front - back)
+    let [[one, other], [right_of, left_of]] = [beyond(LOBES), beyond(-NOTCH)];
+    let lobes = [one, other].map(|lobe| reach_within(mesh, &[plate, lobe], forward));
+    let lobes = (lobes[0].0.min(lobes[1].0), lobes[0].1.max(lobes[1].1));
+    let notch = reach_within(mesh, &[plate, right_of, left_of], forward);
+    let (behind, ahead) = (notch.0 - lobes.0, lobes.1 - notch.1);
+    directed(forward, behind - ahead, front - back)
+}
+
+/// A direction, and how far along it a half of space begins, mm.
+type HalfSpace = (Vector3, f64);
+
+/// How far what of a surface lies within halves of space, three at most, reaches along an axis: of the surface, not of its vertices, which a
+/// flat part has none of.
+fn reach_within(mesh: &Mesh<'_>, halves: &[HalfSpace], axis: &Vector3) -> (f64, f64) {
+    let corners = mesh.vertices();
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for triangle in mesh.triangles() {
+        let corners = triangle.map(|vertex| corners[vertex as usize].map(f64::from));
+        let whole: Polygon = corners.into_iter().collect();
+        let within = halves.iter().fold(whole, |part, half| clipped(&part, half));
+        let (from, to) = reach(within.into_iter(), axis);
+        (low, high) = (low.min(from), high.max(to));
+    }
+    (low, high)
+}
+
+/// A triangle of which up to three corners were cut off.
+type Polygon = heapless::Vec<Vector3, 6>;
+
+/// What of a convex polygon lies in a half of space.
+fn clipped(polygon: &Polygon, (axis, least): &HalfSpace) -> Polygon {
+    let mut kept = Polygon::new();
+    let height = |point: &Vector3| dot(point, axis) - least;
+    let next = polygon.iter().cycle().skip(1);
+    for (point, next) in polygon.iter().zip(next) {
+        let (here, there) = (height(point), height(next));
+        // There is room: each half of space cuts off a corner at least for the two that it adds.
+        if here >= 0.0 {
+            let _ = kept.push(*point);
+        }
+        if (here < 0.0) != (there < 0.0) {
+            let way = scale(&subtract(next, point), here / (here - there));
+            let _ = kept.push(add(point, &way));
+        }
+    }
+    kept
+}
+
+/// Narrower than this part of its depth a femoral component is of one condyle: others are about as wide as deep.
+const NARROW: f64 = 0.75;
+/// A plate for one condyle is a D whose plane of symmetry is the wrong one. It is longer along its straight side, to these many times,
+/// than a plate for both is wider than deep, and no longer than this, mm.
+const SLENDER: f64 = 1.65;
+const ONE_CONDYLE_MM: f64 = 62.0;
+
+/// Whether a component has the proportions of one for a single condyle, whose axes its shape tells otherwise: the hinder arm of its bow is the
+/// longer one, its bow opens forwards as well as upwards, and its plate is nearly symmetric from front to back.
+pub(super) fn is_of_one_condyle(
+    mesh: &Mesh<'_>,
+    forward: &Vector3,
+    across: &Vector3,
+    component: KneeComponent,
+) -> bool {
+    let [depth, width] = [forward, across].map(|axis| super::width(mesh, axis));
+    match component {
+        KneeComponent::Femur => width < NARROW * depth,
+        KneeComponent::Tibia => width > SLENDER * depth && width < ONE_CONDYLE_MM,
+    }
 }
 
 /// An axis in the direction of the sign of `difference`, and whether that is large enough to tell.

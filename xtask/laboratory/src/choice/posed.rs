@@ -181,6 +181,6 @@ impl Posed {
 
 fn shape_axes(model: &Model<'_>, role: Role) -> Result<Pose> {
     let axes = axes_of(model, role, None)?;
-    let axes = axes.with_context(|| format!("the shape of the {role:?} does not tell its axes"))?;
+    let axes = axes.with_context(|| format!("the shape of the {role:?} does not tell its axes: without --counterpart-model those of the files are taken"))?;
     Ok(axes.model_from_field)
 }

@@ -2,7 +2,10 @@
 
 use super::*;
 use crate::math::apply;
-use crate::mesh::edges::fake::{add_box, placed_within};
+use crate::mesh::anatomy::field_axes;
+use crate::mesh::edges::fake::{add_box, add_prism, ellipse, placed_within};
+use crate::mesh::symmetry::symmetry_planes;
+use crate::pose::EulerPose;
 use proptest::prelude::*;
 use std::vec::Vec;
 
@@ -26,6 +29,16 @@ impl Part {
         }
     }
 
+    fn with(mut self, outline: &[[f32; 2]], heights: [f32; 2]) -> Self {
+        add_prism(outline, heights, &mut self.vertices, &mut self.triangles);
+        self
+    }
+
+    fn axes(&self, component: KneeComponent) -> Option<AnatomicalAxes> {
+        let mesh = self.mesh();
+        anatomical_axes(&mesh, &symmetry_planes(&mesh), component)
+    }
+
     fn at(mut self, pose: &Pose) -> Self {
         for vertex in &mut self.vertices {
             *vertex = pose.transform(&vertex.map(f64::from)).map(|x| x as f32);
@@ -45,8 +58,6 @@ fn tray(notch: f32) -> Part {
         ([-20.0 - notch, 0.0, 12.0], [-20.0, 4.0, 38.0]),
         ([-20.0 - notch, 0.0, -38.0], [-20.0, 4.0, -12.0]),
         ([-8.0, -40.0, -5.0], [6.0, 0.0, 5.0]),
-        // What the notch is measured at lies in the middle.
-        ([-20.0, 0.0, -3.0], [25.0, 4.0, 3.0]),
     ])
 }
 
@@ -57,6 +68,46 @@ fn bow(front: f32) -> Part {
         ([14.0, 0.0, -30.0], [20.0, front, 30.0]),
         ([-20.0, 0.0, -30.0], [-14.0, 40.0, 30.0]),
     ])
+}
+
+/// A plate with a straight front, of whose vertices none lies in the middle but those of the notch behind.
+const STRAIGHT_FRONT: [[f32; 2]; 12] = [
+    [-14.0, 6.0],
+    [-14.0, -6.0],
+    [-25.0, -10.0],
+    [-25.0, -30.0],
+    [-15.0, -38.0],
+    [15.0, -38.0],
+    [25.0, -14.0],
+    [25.0, 14.0],
+    [15.0, 38.0],
+    [-15.0, 38.0],
+    [-25.0, 30.0],
+    [-25.0, 10.0],
+];
+
+/// A tray for both condyles, 42 x 62 mm, without a notch.
+fn oval() -> Part {
+    Part::of(&[]).with(&ellipse([0.0; 2], [21.0, 31.0]), [0.0, 4.0])
+}
+
+/// A bow of one condyle, 20 mm wide, whose arm behind is the longer one.
+fn narrow_bow() -> Part {
+    Part::of(&[
+        ([-24.0, 0.0, -10.0], [20.0, 6.0, 10.0]),
+        ([-24.0, 0.0, -10.0], [-18.0, 26.0, 10.0]),
+        ([14.0, 0.0, -10.0], [20.0, 12.0, 10.0]),
+    ])
+}
+
+/// A plate for the lateral condyle, 48 mm deep and 27 mm wide: a D on a keel.
+fn plate_of_one_condyle() -> Part {
+    let arc = ellipse([0.0, -13.0], [24.0, 27.0]);
+    let border: Vec<[f32; 2]> = arc.into_iter().filter(|at| at[1] > -13.1).collect();
+    let keel = [[-12.0, -2.0], [12.0, -2.0], [12.0, 1.0], [-12.0, 1.0]];
+    Part::of(&[])
+        .with(&border, [0.0, 3.0])
+        .with(&keel, [-9.0, 0.0])
 }
 
 /// Anterior, superior and right of a part at a pose.
@@ -77,7 +128,7 @@ properties! {
         let [_, up, _] = axes(&pose);
         for sign in [-1.0, 1.0] {
             let found = above_the_keel(&part.mesh(), &scale(&up, sign));
-            prop_assert!(off(&found, &up) < 1e-9);
+            prop_assert!(found.is_some_and(|found| off(&found, &up) < 1e-9));
         }
     }
 
@@ -112,6 +163,56 @@ properties! {
         }
     }
 
+    #[test]
+    fn the_front_of_a_tray_is_where_its_surface_reaches_and_not_where_it_has_vertices(pose in placed_within(80.0)) {
+        let [front, up, right] = axes(&pose);
+        let part = Part::of(&[]).with(&STRAIGHT_FRONT, [0.0, 4.0]);
+        let part = part.with(&ellipse([0.0; 2], [7.0; 2]), [-20.0, 0.0]).at(&pose);
+        for sign in [-1.0, 1.0] {
+            let (found, known) = away_from_the_notch(&part.mesh(), &scale(&front, sign), &right, &up);
+            prop_assert!(known && off(&found, &front) < 1e-9);
+        }
+    }
+
+    /// Whichever arm it stands nearer to. One that leans over an arm hides it.
+    #[test]
+    fn a_stem_is_no_arm(pose in placed_within(80.0), at in -7.0..7.0f32, height in 52.0..200.0f32) {
+        let [front, up, _] = axes(&pose);
+        let stemmed = |at: f32| {
+            let stem = ellipse([at, 0.0], [3.0; 2]);
+            bow(46.0).with(&stem, [6.0, height]).at(&pose)
+        };
+        for sign in [-1.0, 1.0] {
+            let given = scale(&front, sign);
+            let (found, known) = along_the_longer_arm(&stemmed(at).mesh(), &given, &up);
+            prop_assert!(known && off(&found, &front) < 1e-9);
+            let (_, known) = along_the_longer_arm(&stemmed(-17.0).mesh(), &given, &up);
+            prop_assert!(!known);
+        }
+    }
+
+    /// More of its surface faces forwards or backwards, but none of it one way.
+    #[test]
+    fn a_long_stem_and_a_keel_do_not_turn_a_tray(
+        pose in placed_within(80.0), radius in 6.0..9.0f32, length in 60.0..200.0f32, leans in 0.0..6.0f64
+    ) {
+        let [_, up, across] = axes(&pose);
+        let keel = [[0.0, -18.0], [0.0, 18.0], [-3.0, 18.0], [-3.0, -18.0]];
+        let lean = Pose::from(EulerPose { z_rot_deg: leans, ..EulerPose::default() });
+        let below = Part::of(&[]).with(&keel, [-25.0, 0.0]);
+        let below = below.with(&ellipse([-2.0, 0.0], [radius; 2]), [-length, 0.0]).at(&lean);
+        let mut part = oval();
+        let first = part.vertices.len() as u32;
+        part.vertices.extend(below.vertices);
+        part.triangles.extend(below.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
+        let part = part.at(&pose);
+        let axis = superoinferior_axis(&part.mesh(), &across).expect("a plate");
+        prop_assert!(dot(&axis, &up).abs() > 0.97, "{:?}", axis);
+        let axes = part.axes(KneeComponent::Tibia).expect("a plate on a keel");
+        let found = axes.model_from_field.rotation.map(|row| row[1]);
+        prop_assert!(dot(&found, &up) > 0.95, "{:?}", axes);
+    }
+
     /// Along the cut that faces that way, so that the longer arm does not turn it.
     #[test]
     fn a_bow_opens_upwards_whichever_way_across_is_given(
@@ -124,6 +225,28 @@ properties! {
         let closed = Part::of(&[([-20.0, 0.0, -30.0], [20.0, 40.0, 30.0])]).at(&pose);
         prop_assert_eq!(opening(&closed.mesh(), &right), None);
     }
+}
+
+#[test]
+fn a_plate_on_nothing_has_no_up() {
+    assert_eq!(oval().axes(KneeComponent::Tibia), None);
+    let with_keel = oval().with(&ellipse([0.0; 2], [6.0; 2]), [-8.0, 0.0]);
+    assert!(with_keel.axes(KneeComponent::Tibia).is_some());
+}
+
+/// Their planes of symmetry and longer arms are others than those of components for both condyles.
+#[test]
+fn components_for_one_condyle_do_not_tell_their_axes() {
+    let (bow, plate) = (narrow_bow(), plate_of_one_condyle());
+    assert_eq!(bow.axes(KneeComponent::Femur), None);
+    assert_eq!(plate.axes(KneeComponent::Tibia), None);
+    let directions = |part: &Part, component| {
+        let mesh = part.mesh();
+        field_axes(&mesh, &symmetry_planes(&mesh), component)
+    };
+    assert_eq!(directions(&plate, KneeComponent::Tibia), None);
+    // Across the knee is right of a bow, and that is all that they say.
+    assert!(directions(&bow, KneeComponent::Femur).is_some());
 }
 
 #[test]
