@@ -222,8 +222,8 @@ impl<'m> Table<'m> {
     }
 }
 
-/// Sums of a value over all cells above and to the left of each corner. What is not of the picture has that of what is read before
-/// it: there is no edge.
+/// Sums of a value over all cells above and to the left of each corner. What is not of the picture has that of what lies beside it in its
+/// row, and a row of which nothing is has those of the row beside it: there is no edge.
 fn sum_up(
     sums: &mut [f64],
     (columns, rows): (usize, usize),
@@ -231,12 +231,15 @@ fn sum_up(
 ) {
     let width = columns + 1;
     sums[..width].fill(0.0);
-    let mut before = 0.0;
+    let first_of = |row| (0..columns).find_map(|column| value(column, row));
+    let mut seen = (0..rows).find_map(|row| first_of(row).map(|first| (row, first)));
     for row in 0..rows {
+        seen = first_of(row).map(|first| (row, first)).or(seen);
+        let (from, mut before) = seen.unwrap_or_default();
         let mut line = 0.0;
         sums[(row + 1) * width] = 0.0;
         for column in 0..columns {
-            before = value(column, row).unwrap_or(before);
+            before = value(column, from).unwrap_or(before);
             line += before;
             sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
         }
@@ -378,6 +381,59 @@ mod tests {
             });
             let is_near = |at: &Point| near(at.column, at.row) < 14.0;
             assert!(found.iter().any(is_near), "{middle:?}: {found:?}");
+        }
+    }
+
+    /// A shutter over any side, or over a corner: its border is no dark thing, and all of them are one picture turned or mirrored.
+    #[test]
+    fn what_is_not_of_the_picture_is_as_bright_as_what_lies_beside_it() {
+        use fluoropose::image::shuttered::Shuttered;
+        const SIDE: usize = 256;
+        const COVERED: usize = 50;
+        let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
+            .map(|k| {
+                let off = [k % SIDE, k / SIDE].map(|at| at as f64 - 127.5);
+                if libm::hypot(off[0], off[1]) < 14.0 {
+                    90
+                } else {
+                    180
+                }
+            })
+            .collect();
+        let camera = Camera::new(SIDE, SIDE, [900.0; 2], [128.0; 2]).expect("valid");
+        let mut sums = std::vec![0.0; seeds_needed(&camera)];
+        type Covers = fn(usize, usize) -> bool;
+        let shutters: [Covers; 6] = [
+            |_, row| row < COVERED,
+            |_, row| row >= SIDE - COVERED,
+            |column, _| column < COVERED,
+            |column, _| column >= SIDE - COVERED,
+            |column, row| column + row < 3 * COVERED,
+            |column, row| column + row > 2 * SIDE - 3 * COVERED,
+        ];
+        for (number, covers) in shutters.iter().enumerate() {
+            let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+            let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            for place in 0..SIDE * SIDE {
+                let (column, row) = (place % SIDE, place / SIDE);
+                if covers(column, row) {
+                    mask.set(column, row, true);
+                }
+            }
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let frame = Shuttered::new(frame, &words[..]).expect("as large");
+            let image = ImageTarget {
+                frame: &frame,
+                unknown: None,
+                polarity: Polarity::DarkImplant,
+                film: None,
+            };
+            let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+            let is_in = |at: &Point| libm::hypot(at.column - 128.0, at.row - 128.0) < 20.0;
+            assert!(
+                !found.is_empty() && found.iter().all(is_in),
+                "{number}: {found:?}"
+            );
         }
     }
 
