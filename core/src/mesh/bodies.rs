@@ -4,9 +4,10 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::owned::OwnedModel;
+use crate::math::{cross, norm, subtract};
 
-/// A body with fewer of the triangles than one in this many is a marker or a splinter.
-const SPLINTER: usize = 20;
+/// A body with a smaller part of the surface than one in this many is a marker or a splinter, however finely it is cut.
+const SPLINTER: f64 = 20.0;
 
 impl OwnedModel {
     /// Parts of the surface that share no vertex, but for splinters; at least one.
@@ -22,13 +23,14 @@ impl OwnedModel {
                 joined[other] = first;
             }
         }
-        let mut sizes = BTreeMap::<usize, usize>::new();
-        for [a, ..] in triangles {
-            *sizes.entry(root(&mut joined, *a as usize)).or_default() += 1;
+        let mut areas = BTreeMap::<usize, f64>::new();
+        for triangle in triangles {
+            let body = root(&mut joined, triangle[0] as usize);
+            let [a, b, c] = triangle.map(|vertex| model.vertices()[vertex as usize].map(f64::from));
+            *areas.entry(body).or_default() += norm(&cross(&subtract(&b, &a), &subtract(&c, &a)));
         }
-        let large = sizes
-            .values()
-            .filter(|&&size| SPLINTER * size >= triangles.len());
+        let whole: f64 = areas.values().sum();
+        let large = areas.values().filter(|&&area| SPLINTER * area >= whole);
         large.count().max(1)
     }
 }

@@ -67,7 +67,7 @@ impl OwnedModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::edges::fake::add_box;
+    use crate::mesh::edges::fake::{self, add_box};
     use std::vec;
 
     fn box_of(size: f32) -> OwnedModel {
@@ -128,6 +128,23 @@ mod tests {
             remarks.len() == 1 && remarks[0].contains("2 bodies that do not touch"),
             "{remarks:?}"
         );
+    }
+
+    /// A box of twelve triangles beside two rings of many.
+    #[test]
+    fn bodies_are_counted_alike_however_finely_they_are_cut() {
+        let (mut vertices, mut triangles) = fake::torus(&[0.0; 40]);
+        let fine = triangles.len();
+        fake::add_box(
+            [20.0, 0.0, 70.0],
+            [60.0, 4.0, 130.0],
+            &mut vertices,
+            &mut triangles,
+        );
+        assert!(20 * (triangles.len() - fine) < fine);
+        let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+        let owned = OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("valid");
+        assert_eq!(owned.bodies(), 3);
     }
 
     #[test]
