@@ -33,11 +33,14 @@ struct OwnedEdges {
 
 impl OwnedModel {
     /// Takes vertices (x, y and z of each, mm) and triangles (three vertex numbers each). One or two numbers left over at
-    /// the end of either are not read.
+    /// the end of either are not read. Vertices of no triangle, as those of another part in the same list, are left out: they are
+    /// nowhere on the surface, and would be of its size and shape.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
-    pub fn new(vertices: Vec<f32>, mut triangles: Vec<u32>) -> Result<Self, MeshError> {
+    pub fn new(mut vertices: Vec<f32>, mut triangles: Vec<u32>) -> Result<Self, MeshError> {
+        Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
+        leave_out_strays(&mut vertices, triangles.as_chunks_mut().0);
         let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
         let bounds = mesh.bounds();
         let (mut edges, faults, mut numbers) = linked(&mesh);
@@ -80,6 +83,28 @@ impl OwnedModel {
             Some(edges) => Model::linked(mesh, edges),
             None => Model::new(mesh),
         }
+    }
+}
+
+/// Takes out the vertices of no triangle and numbers the others anew, in their order.
+fn leave_out_strays(vertices: &mut Vec<f32>, triangles: &mut [[u32; 3]]) {
+    let mut numbers = vec![None; vertices.len() / 3];
+    for &vertex in triangles.as_flattened() {
+        numbers[vertex as usize] = Some(vertex);
+    }
+    if numbers.iter().all(Option::is_some) {
+        return;
+    }
+    let mut kept = Vec::new();
+    for (number, corner) in numbers.iter_mut().zip(vertices.as_chunks::<3>().0) {
+        if number.is_some() {
+            *number = Some((kept.len() / 3) as u32);
+            kept.extend_from_slice(corner);
+        }
+    }
+    *vertices = kept;
+    for vertex in triangles.as_flattened_mut() {
+        *vertex = numbers[*vertex as usize].unwrap_or_default();
     }
 }
 
@@ -151,6 +176,29 @@ mod tests {
             model.triangles().iter().map(of).collect::<Vec<_>>()
         };
         assert_eq!(direction(&turned), direction(&as_it_was));
+    }
+
+    /// Whatever else stands in its list of vertices, before it, between or behind.
+    #[test]
+    fn a_part_is_the_same_with_vertices_of_another_in_its_list() {
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let far = [90.0, -400.0, 7.0];
+        let alone = OwnedModel::new(corners.concat(), triangles.concat()).expect("valid");
+        let with_others: Vec<f32> = corners
+            .iter()
+            .flat_map(|corner| [far, *corner, far])
+            .flatten()
+            .collect();
+        let numbers = triangles
+            .concat()
+            .iter()
+            .map(|vertex| 3 * vertex + 1)
+            .collect();
+        let among = OwnedModel::new(with_others, numbers).expect("valid");
+        let [alone, among] = [&alone, &among].map(OwnedModel::as_model);
+        assert_eq!(among.bounds(), alone.bounds());
+        assert_eq!(among.digest(), alone.digest());
     }
 
     #[test]
