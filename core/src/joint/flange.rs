@@ -16,6 +16,8 @@ const PLACES: usize = 10;
 /// Places lie between these parts of half the component's width off its middle: further in both halves are one ridge or the groove, further
 /// out no flange has a tip.
 const PLACED: (f64, f64) = (0.15, 0.6);
+/// The flange lies within this part of the component's depth from its front; a stem or a box stands behind it.
+const FLANGE: f64 = 0.25;
 /// A half is the higher one where it is so by more than this part of the width in the median. A flange that is its own mirror image is 0; those
 /// of three designs that are made for one side are 0.09, 0.18 and 0.21.
 const HIGHER_PART: f64 = 0.04;
@@ -67,12 +69,12 @@ fn leaning(mesh: &Mesh<'_>, axes: &AnatomicalAxes) -> Option<f64> {
     let (width, middle) = (right_end - left_end, (left_end + right_end) / 2.0);
     let height = |across: f64| {
         let cut = sides(mesh).filter_map(|side| at_distance(&side, &right, middle + across));
-        let flange = cut.filter(|point| dot(point, &forward) > (back + front) / 2.0);
+        let flange = cut.filter(|point| dot(point, &forward) > front - FLANGE * (front - back));
         flange
             .map(|point| dot(&point, &up))
             .fold(f64::NEG_INFINITY, f64::max)
     };
-    // In the median, as a stem beside the middle is higher than any flange.
+    // In the median, as a stem that leans over the flange is higher.
     let mut higher: [f64; PLACES] = core::array::from_fn(|place| {
         let across = off_middle(place) * width / 2.0;
         height(across) - height(-across)
@@ -233,6 +235,31 @@ mod tests {
                 &mut triangles,
             );
             assert_eq!(told(&vertices, &triangles, true), side, "{left} {right}");
+        }
+    }
+
+    /// However wide it is, and however far to one side.
+    #[test]
+    fn an_offset_stem_is_no_flange() {
+        for (left, right, side) in [
+            (40.0, 40.0, None),
+            (50.0, 30.0, Some(Side::Left)),
+            (30.0, 50.0, Some(Side::Right)),
+        ] {
+            for (from, to) in [(-15.0, 3.0), (-3.0, 15.0), (2.0, 20.0)] {
+                let (mut vertices, mut triangles) = bow(left, right);
+                add_box(
+                    [-6.0, 0.0, from],
+                    [12.0, 120.0, to],
+                    &mut vertices,
+                    &mut triangles,
+                );
+                assert_eq!(
+                    told(&vertices, &triangles, true),
+                    side,
+                    "{left} {right} {from}"
+                );
+            }
         }
     }
 
