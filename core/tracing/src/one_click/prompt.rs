@@ -191,7 +191,7 @@ fn darkest_near(click: Point, window: &Window, grey: &[u16]) -> usize {
     best.1
 }
 
-/// The middle of the thickest dark thing in a window for each fraction of dark pixels, each pixel once.
+/// The middle of the thickest dark thing in a window for each fraction of dark pixels among those that are known, each pixel once.
 fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEEDS> {
     let mut seeds = Vec::new();
     let histogram = &mut *memory.statistics;
@@ -205,8 +205,9 @@ fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEED
             *count += 1;
         }
     }
+    let known: f64 = histogram.iter().copied().map(f64::from).sum();
     for fraction in DARKEST {
-        let wanted = fraction * window.pixels() as f64;
+        let wanted = fraction * known;
         let mut sum = 0.0;
         let level = memory.statistics.iter().position(|&count| {
             sum += f64::from(count);
@@ -231,7 +232,11 @@ fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEED
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fluoropose::film::LineMemory;
     use fluoropose::image::mask::{MaskMut, words_needed};
+    use fluoropose::locate::Workspace;
+    use fluoropose::refine::RefineMemory;
+    use fluoropose::search::kernels::Kernels;
 
     const SIDE: usize = 64;
 
@@ -278,6 +283,56 @@ mod tests {
             (window.left, window.top, window.width, window.height),
             (8, 9, 44, 22)
         );
+    }
+
+    /// Of a box most of which is excluded the fractions are those of what is left.
+    #[test]
+    fn what_is_excluded_of_a_box_is_no_part_of_it() {
+        let window = Window {
+            left: 0,
+            top: 0,
+            width: 40,
+            height: 40,
+        };
+        let levels = |k: usize| match (k % 40, k / 40) {
+            (0..34, _) => BLOCKED,
+            (36, 30) => 0,
+            (35..39, 14..26) => 100,
+            _ => 900,
+        };
+        let mut grey: std::vec::Vec<u16> = (0..window.pixels()).map(levels).collect();
+        let pixels = || std::vec![0; window.pixels()];
+        let mut memory = OneClickMemory {
+            grey: &mut grey,
+            reached: &mut [],
+            distance: &mut pixels(),
+            marks: &mut std::vec![0; window.pixels()],
+            links: &mut std::vec![0; window.pixels()],
+            statistics: &mut [0; LEVELS],
+            words: &mut [],
+            workspace: Workspace {
+                canonical: &mut [],
+                rotated: &mut [],
+                scores: &mut [],
+                bytes: &mut [],
+                kernels: Kernels::PORTABLE,
+            },
+            refine: RefineMemory {
+                projected: &mut [],
+                drawn: &mut [],
+                places: &mut [],
+                border: &mut [],
+                film: LineMemory {
+                    lines: &mut [],
+                    heads: &mut [],
+                    groups: &mut [],
+                },
+            },
+        };
+        let seeds = thickest(&window, &mut memory);
+        let in_block = |seed: &usize| levels(*seed) == 100;
+        assert!(seeds.first().is_some_and(in_block), "{seeds:?}");
+        assert!(!seeds.iter().any(|&seed| levels(seed) == 0), "{seeds:?}");
     }
 
     #[test]
