@@ -70,7 +70,10 @@ pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Ve
 /// Directions that are tried beside the first, over half a turn.
 const AROUND: u32 = 36;
 
-/// `first`, perpendicular to `across`, where no direction farther than 15 degrees from it has more of the surface within 15 degrees, else that
+/// Cosine of 5 degrees, within which two directions are one.
+const ONE_DIRECTION: f64 = 0.996_194_698_091_745_5;
+
+/// `first`, perpendicular to `across`, where no direction farther than 5 degrees from it has more of the surface within 15 degrees, else that
 /// direction: a long stem turns more of its surface forwards and backwards than a plate has, but all round.
 fn most_faced(mesh: &Mesh<'_>, across: &Vector3, first: Vector3) -> Vector3 {
     let second = cross(across, &first);
@@ -85,7 +88,7 @@ fn most_faced(mesh: &Mesh<'_>, across: &Vector3, first: Vector3) -> Vector3 {
     }
     let square = subtract(&best.0, &scale(across, dot(&best.0, across)));
     let length = norm(&square);
-    if length > 0.0 && dot(&square, &first).abs() < kind::FACING * length {
+    if length > 0.0 && dot(&square, &first).abs() < ONE_DIRECTION * length {
         return scale(&square, 1.0 / length);
     }
     first
