@@ -295,10 +295,10 @@ mod tests {
             height: 40,
         };
         let levels = |k: usize| match (k % 40, k / 40) {
-            (0..34, _) => BLOCKED,
             (36, 30) => 0,
             (35..39, 14..26) => 100,
-            _ => 900,
+            (34.., _) => 900,
+            _ => BLOCKED,
         };
         let mut grey: std::vec::Vec<u16> = (0..window.pixels()).map(levels).collect();
         let pixels = || std::vec![0; window.pixels()];
