@@ -4,6 +4,7 @@
 //! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. [`field_axes`] tells that much
 //! and no signs, for what does not depend on them; [`anatomical_axes`] tells which way is up and forwards too.
 
+mod faced;
 mod kind;
 mod signs;
 mod words;
@@ -12,6 +13,7 @@ pub use kind::component_by_shape;
 pub use signs::{AnatomicalAxes, anatomical_axes};
 pub use words::AxesError;
 
+use self::faced::most_faced;
 use crate::math::eigen::eigen_symmetric;
 use crate::math::{Matrix3, Vector3, cross, dot, norm, radians, scale, sin_cos, subtract};
 use crate::mesh::surface::Mesh;
@@ -67,33 +69,6 @@ pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Ve
     (largest > 0.0).then(|| upright(most_faced(mesh, mediolateral, normal)))
 }
 
-/// Directions that are tried beside the first, over half a turn.
-const AROUND: u32 = 36;
-
-/// Cosine of 5 degrees, within which two directions are one.
-const ONE_DIRECTION: f64 = 0.996_194_698_091_745_5;
-
-/// `first`, perpendicular to `across`, where no direction farther than 5 degrees from it has more of the surface within 15 degrees, else that
-/// direction: a long stem turns more of its surface forwards and backwards than a plate has, but all round.
-fn most_faced(mesh: &Mesh<'_>, across: &Vector3, first: Vector3) -> Vector3 {
-    let second = cross(across, &first);
-    let mut best = (first, 0.0);
-    for step in 0..AROUND {
-        let turn = core::f64::consts::PI * f64::from(step) / f64::from(AROUND);
-        let along = signs::between(&first, &second, turn);
-        let (sum, area) = signs::facing(mesh, &along, kind::FACING);
-        if area > best.1 {
-            best = (sum, area);
-        }
-    }
-    let square = subtract(&best.0, &scale(across, dot(&best.0, across)));
-    let length = norm(&square);
-    if length > 0.0 && dot(&square, &first).abs() < ONE_DIRECTION * length {
-        return scale(&square, 1.0 / length);
-    }
-    first
-}
-
 /// A component of a knee.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KneeComponent {
@@ -120,7 +95,7 @@ pub fn field_axes(
         KneeComponent::Femur => perpendicular(&z),
     };
     let x = cross(&y, &z);
-    if component == KneeComponent::Tibia && signs::is_of_one_condyle(mesh, &x, &z, component) {
+    if component == KneeComponent::Tibia && is_of_one_condyle(mesh, &x, &z, component) {
         return None;
     }
     let found = Pose {
@@ -128,6 +103,28 @@ pub fn field_axes(
         translation: [0.0; 3],
     };
     Some(own_axes(&found).unwrap_or(found))
+}
+
+/// Narrower than this part of its depth a femoral component is of one condyle: others are about as wide as deep.
+const NARROW: f64 = 0.75;
+/// A plate for one condyle is a D whose plane of symmetry is the wrong one. It is longer along its straight side, to these many times,
+/// than a plate for both is wider than deep, and no longer than this, mm.
+const SLENDER: f64 = 1.65;
+const ONE_CONDYLE_MM: f64 = 62.0;
+
+/// Whether a component has the proportions of one for a single condyle, whose axes its shape tells otherwise: the hinder arm of its bow is the
+/// longer one, its bow opens forwards as well as upwards, and its plate is nearly symmetric from front to back.
+fn is_of_one_condyle(
+    mesh: &Mesh<'_>,
+    forward: &Vector3,
+    across: &Vector3,
+    component: KneeComponent,
+) -> bool {
+    let [depth, width] = [forward, across].map(|axis| width(mesh, axis));
+    match component {
+        KneeComponent::Femur => width < NARROW * depth,
+        KneeComponent::Tibia => width > SLENDER * depth && width < ONE_CONDYLE_MM,
+    }
 }
 
 /// The file's own axes in the order and the directions that are nearest to those found, where all are within

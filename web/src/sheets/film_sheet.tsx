@@ -5,6 +5,7 @@ import { DISPLAYS, type Doc, type Film, type FilmConstants, type KnownFilm, type
 import { NumberField } from '../controls/number_field';
 import { Segments } from '../controls/segments';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
@@ -17,7 +18,7 @@ export function FilmSheet({ state }: { state: State }) {
   const { film, components } = state.history.present;
   const { known, stated } = film;
   const [trouble, setTrouble] = useState('');
-  const words = texts.film;
+  const words = later.filmSheet;
   const say = (change: Partial<StatedFilm>) => store.perform(stateFilm({ ...stated, ...change }));
   const setBlur = (blur: number) => {
     const possible = Number.isNaN(blur) || (blur >= BLUR.least && blur <= BLUR.most);
@@ -27,7 +28,7 @@ export function FilmSheet({ state }: { state: State }) {
   return (
     <div class="sheet-body">
       <p class="sheet-text" role="status">
-        {known ? [words.known(known.words), ...(known.stated.constants ? [] : [words.from(known.profiles)])].join(' ') : words.nothing}
+        {known ? [texts.film.known(known.words), ...(known.stated.constants ? [] : [words.from(known.profiles)])].join(' ') : words.nothing}
       </p>
       {known && isUntold(known) && <p class="sheet-text">{words.untold}</p>}
       {stated.constants ? (
@@ -68,7 +69,7 @@ interface ConstantsProps {
 /** All of a film, number by number. */
 function Constants({ constants, onChange }: ConstantsProps) {
   const [trouble, setTrouble] = useState('');
-  const words = texts.film;
+  const words = later.filmSheet;
   const { curvature, blur, attenuation } = constants;
   const set = (change: Partial<FilmConstants>) => {
     const next = { ...constants, ...change };

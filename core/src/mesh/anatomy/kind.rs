@@ -14,7 +14,7 @@
 //! the size of triangles do not matter. What is neither a plate nor a bow, or a little of both, tells nothing.
 
 use super::KneeComponent;
-use super::signs::{faces, vertices};
+use super::faced::{FACING, faces, vertices};
 use crate::math::eigen::eigen_symmetric;
 use crate::math::{Matrix3, Vector3, add, apply, dot, norm, scale, subtract, transpose};
 use crate::mesh::surface::Mesh;
@@ -25,8 +25,6 @@ const PLATE: f64 = 5.0 / 12.0;
 const BOX: f64 = 1.0 / 3.0;
 /// The middles of a bow's surface and of its outermost points lie so far apart, of its radius, at least.
 const BOW: f64 = 0.11;
-/// Faces within 15 degrees of a direction, or of its opposite, face it: their cosine.
-pub(super) const FACING: f64 = 0.965_925_826_289_068_3;
 /// Faces within 15 degrees of running along a direction do: the sine of that.
 const ASIDE: f64 = 0.258_819_045_102_520_76;
 /// Of what does not run along the way to its outermost points a tray has at least this part across it. A bow has less than half.

@@ -3,8 +3,9 @@
 //! A femoral component seen from the side is a bow that opens towards the bone, upwards; its anterior flange is the longer
 //! arm, and what stands between the arms a stem. A tray's plate lies on top of its keel, and its border is notched behind, for the ligament.
 
-use super::{KneeComponent, mediolateral_axis, own_axes, superoinferior_axis};
-use crate::math::{Vector3, add, cross, dot, norm, radians, scale, sin_cos, subtract};
+use super::faced::{between, faces, facing, vertices};
+use super::{KneeComponent, is_of_one_condyle, mediolateral_axis, own_axes, superoinferior_axis};
+use crate::math::{Vector3, add, cross, dot, norm, radians, scale, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::Pose;
@@ -67,29 +68,6 @@ fn square_to(axis: &Vector3, other: &Vector3) -> Option<Vector3> {
     (length > 1e-9).then(|| scale(&square, 1.0 / length))
 }
 
-pub(super) fn vertices<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = Vector3> + Clone + 'm {
-    mesh.vertices().iter().map(|vertex| vertex.map(f64::from))
-}
-
-/// Middle, doubled area and normal times doubled area of every triangle.
-pub(super) fn faces<'m>(
-    mesh: &Mesh<'m>,
-) -> impl Iterator<Item = (Vector3, f64, Vector3)> + Clone + 'm {
-    let corners = mesh.vertices();
-    mesh.triangles().iter().map(move |triangle| {
-        let [a, b, c] = triangle.map(|vertex| corners[vertex as usize].map(f64::from));
-        let normal = cross(&subtract(&b, &a), &subtract(&c, &a));
-        let middle = scale(&add(&add(&a, &b), &c), 1.0 / 3.0);
-        (middle, norm(&normal), normal)
-    })
-}
-
-/// The first of two perpendicular directions turned towards the second, radians.
-pub(super) fn between(first: &Vector3, second: &Vector3, turn: f64) -> Vector3 {
-    let (sin, cos) = sin_cos(turn);
-    add(&scale(first, cos), &scale(second, sin))
-}
-
 /// Directions round the side view.
 const AROUND: usize = 72;
 /// The bone cut that faces upwards lies within this of the direction in which the bow opens, degrees.
@@ -133,17 +111,6 @@ fn cut_facing(mesh: &Mesh<'_>, out: &Vector3, across: &Vector3, area: f64) -> Op
     let best = directions.map(|along| facing(mesh, &along, CUT_COSINE));
     let (sum, most) = best.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     (most > CUT_PART * area).then(|| scale(&sum, 1.0 / norm(&sum)))
-}
-
-/// What of a surface faces a direction or its opposite, to within an angle of this cosine: normals turned towards it, as long as their
-/// areas, summed, and the doubled area.
-pub(super) fn facing(mesh: &Mesh<'_>, along: &Vector3, cosine: f64) -> (Vector3, f64) {
-    let near = faces(mesh)
-        .filter(|(_, area, normal)| *area > 0.0 && dot(normal, along).abs() > cosine * area);
-    near.fold(([0.0; 3], 0.0), |(sum, all), (_, area, normal)| {
-        let sign = if dot(&normal, along) < 0.0 { -1.0 } else { 1.0 };
-        (add(&sum, &scale(&normal, sign)), all + area)
-    })
 }
 
 /// A tray's axis so directed that its plate, which faces along it, is above the middle; `None` where nothing hangs from it that tells.
@@ -276,28 +243,6 @@ fn clipped(polygon: &Polygon, (axis, least): &HalfSpace) -> Polygon {
         }
     }
     kept
-}
-
-/// Narrower than this part of its depth a femoral component is of one condyle: others are about as wide as deep.
-const NARROW: f64 = 0.75;
-/// A plate for one condyle is a D whose plane of symmetry is the wrong one. It is longer along its straight side, to these many times,
-/// than a plate for both is wider than deep, and no longer than this, mm.
-const SLENDER: f64 = 1.65;
-const ONE_CONDYLE_MM: f64 = 62.0;
-
-/// Whether a component has the proportions of one for a single condyle, whose axes its shape tells otherwise: the hinder arm of its bow is the
-/// longer one, its bow opens forwards as well as upwards, and its plate is nearly symmetric from front to back.
-pub(super) fn is_of_one_condyle(
-    mesh: &Mesh<'_>,
-    forward: &Vector3,
-    across: &Vector3,
-    component: KneeComponent,
-) -> bool {
-    let [depth, width] = [forward, across].map(|axis| super::width(mesh, axis));
-    match component {
-        KneeComponent::Femur => width < NARROW * depth,
-        KneeComponent::Tibia => width > SLENDER * depth && width < ONE_CONDYLE_MM,
-    }
 }
 
 /// An axis in the direction of the sign of `difference`, and whether that is large enough to tell.
