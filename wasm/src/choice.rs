@@ -1,8 +1,8 @@
 //! Which of several refined poses is chosen, and why, in words.
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
-use fluoropose::finder::{Doubt, Found, Limits, Verdict, contenders, judge};
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::finder::{Away, Doubt, Found, Limits, Verdict, contenders, judge};
+use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
@@ -128,11 +128,11 @@ impl Surroundings {
         if choice.open.is_some_and(|open| open.index == 0) {
             return Some(Doubt::open(&own.pose, &other.pose, other.residual_px).to_string());
         }
-        let turn_deg = geodesic_deg(&own.pose.rotation, &other.pose.rotation);
+        let away = Away::between(&own.pose, &other.pose);
         let reason = self.explain_reason(&choice.reason);
         let reason = reason.trim_end_matches('.');
         Some(format!(
-            "the pose that had been found, {turn_deg:.0} degrees away, is likelier ({reason})"
+            "the pose that had been found, {away} away, is likelier ({reason})"
         ))
     }
 

@@ -43,7 +43,7 @@ pub struct Limits {
 const BEYOND: f64 = 0.2;
 
 /// Poses that are mirrored lie farther apart than this, degrees; nearer ones are one, as noise has it.
-const OTHER_DEG: f64 = 4.0;
+pub const OTHER_DEG: f64 = 4.0;
 
 impl Limits {
     /// The usual ones, of `cargo xtask synthetic --refusal`: outlines of the right model with a hand's jitter of 1 px and up
@@ -197,9 +197,10 @@ impl Doubt {
     /// That another pose than the chosen one fits as well, with its misfit in pixels.
     #[must_use]
     pub fn open(chosen: &Pose, other: &Pose, other_px: f64) -> Self {
+        let Away(turn_deg, shift_mm) = Away::between(chosen, other);
         Self::Open {
-            turn_deg: geodesic_deg(&chosen.rotation, &other.rotation),
-            shift_mm: norm(&subtract(&chosen.translation, &other.translation)),
+            turn_deg,
+            shift_mm,
             other_px,
         }
     }
@@ -272,8 +273,18 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// How far away another pose is, degrees and mm, as it is written: by its turn, and where that would be 0, by its shift.
-struct Away(f64, f64);
+/// How far away another pose is, degrees and mm of the model's origin, as it is written: by its turn, and where that would be 0, by its shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Away(pub f64, pub f64);
+
+impl Away {
+    /// How far one pose is from another.
+    #[must_use]
+    pub fn between(one: &Pose, other: &Pose) -> Self {
+        let shift = subtract(&one.translation, &other.translation);
+        Self(geodesic_deg(&one.rotation, &other.rotation), norm(&shift))
+    }
+}
 
 impl fmt::Display for Away {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

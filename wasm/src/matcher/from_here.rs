@@ -9,7 +9,7 @@ use fluoropose_tracing::beside;
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
-use super::hand_verdict::HandVerdict;
+use super::hand_verdict::{HandVerdict, Held};
 use crate::choice::Surroundings;
 use crate::film::film_model;
 use crate::found::Uncertainty;
@@ -272,8 +272,13 @@ fn fitted(
     // How sure a pose is of which a part was given is not known.
     let free = options.locks.is_empty();
     let determined = !free || assessed.uncertainty.is_some();
-    let held = (&refined.pose, &assessed.fit, determined);
-    let verdict = HandVerdict::beside(model, held, view, around);
+    let held = Held {
+        pose: &refined.pose,
+        fit: &assessed.fit,
+        determined,
+        refined: free,
+    };
+    let verdict = HandVerdict::beside(model, &held, view, around);
     Ok(HandFit {
         pose: to_numbers(&EulerPose::from(refined.pose)),
         residual_px: refined.in_pixels(side_of(&view)).residual_px,

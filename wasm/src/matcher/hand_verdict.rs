@@ -1,16 +1,13 @@
 //! How far a pose that a person set is to be trusted: by itself, and beside what had been found there.
 
-use fluoropose::finder::choice::RivalPose;
-use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
+use fluoropose::finder::choice::{DECISIVE_RATIO, RivalPose};
+use fluoropose::finder::{Limits, OTHER_DEG, Refusal, Verdict, judge_fit};
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{CameraView, Fit};
 use wasm_bindgen::prelude::*;
 
 use crate::choice::Surroundings;
 use crate::working_model::WorkingModel;
-
-/// Poses that lie nearer together than this are one, degrees: a hand does not turn more exactly than so.
-const ONE_DEG: f64 = 4.0;
 
 /// How far a pose that somebody set is to be trusted. It stays whatever the verdict, so there are two words.
 #[wasm_bindgen]
@@ -49,6 +46,25 @@ impl HandVerdict {
     }
 }
 
+/// A pose that a person set, and what was seen there.
+pub(super) struct Held<'h> {
+    pub(super) pose: &'h Pose,
+    pub(super) fit: &'h Fit,
+    /// Whether what was seen determines the pose, or was not asked whether it does.
+    pub(super) determined: bool,
+    /// Whether all six numbers were refined from where the person set them.
+    pub(super) refined: bool,
+}
+
+impl Held<'_> {
+    /// Whether another pose is not this one: turned away from it, or, of what was refined, leaving so much less that both did not come to one end. What a hand set
+    /// leaves more than that because hands are not exact.
+    fn is_beside(&self, other: &Pose, misfit_px: f64) -> bool {
+        let turn_deg = geodesic_deg(&self.pose.rotation, &other.rotation);
+        turn_deg >= OTHER_DEG || self.refined && DECISIVE_RATIO * misfit_px <= self.fit.misfit_px
+    }
+}
+
 impl HandVerdict {
     /// On a pose that was set and not refined.
     pub(super) fn at(
@@ -57,39 +73,74 @@ impl HandVerdict {
         view: CameraView<'_>,
         around: &Surroundings,
     ) -> Result<Self, JsError> {
-        let fit = model.fit_at(pose, view)?;
-        Ok(Self::beside(model, (pose, &fit, true), view, around))
+        let held = Held {
+            pose,
+            fit: &model.fit_at(pose, view)?,
+            determined: true,
+            refined: false,
+        };
+        Ok(Self::beside(model, &held, view, around))
     }
 
-    /// On a pose with its fit, and whether what was seen determines it. What was found before is looked at in the same view: a person may know better, and is told what speaks
-    /// against it.
+    /// What was found before is looked at in the same view: a person may know better, and is told what speaks against it.
     pub(super) fn beside(
         model: &mut WorkingModel,
-        (pose, fit, determined): (&Pose, &Fit, bool),
+        held: &Held<'_>,
         view: CameraView<'_>,
         around: &Surroundings,
     ) -> Self {
-        let alone = judge_fit(fit, determined, &Limits::USUAL);
-        let rivals = around.rivals();
-        let others = rivals
-            .iter()
-            .filter(|other| geodesic_deg(&pose.rotation, &other.rotation) >= ONE_DEG);
-        let others = others.filter_map(|other| {
+        let others = around.rivals().iter().filter_map(|other| {
             let fit = model.fit_at(other, view).ok()?;
             let fits = !matches!(judge_fit(&fit, true, &Limits::USUAL), Verdict::NoFit(_));
-            fits.then_some(RivalPose {
+            let is_rival = fits && held.is_beside(other, fit.misfit_px);
+            is_rival.then_some(RivalPose {
                 pose: *other,
                 residual_px: fit.misfit_px,
             })
         });
         let own = RivalPose {
-            pose: *pose,
-            residual_px: fit.misfit_px,
+            pose: *held.pose,
+            residual_px: held.fit.misfit_px,
         };
         let all: Vec<RivalPose> = core::iter::once(own).chain(others).collect();
         Self {
-            alone,
+            alone: judge_fit(held.fit, held.determined, &Limits::USUAL),
             against: around.against(&all),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::pose::EulerPose;
+
+    #[test]
+    fn a_pose_that_leaves_far_less_is_another_however_near_unless_a_hand_was_not_exact() {
+        let pose = |z_mm, x_rot_deg| {
+            Pose::from(EulerPose {
+                z_mm,
+                x_rot_deg,
+                ..EulerPose::default()
+            })
+        };
+        let (own, fit) = (
+            pose(-1000.0, 0.0),
+            Fit {
+                misfit_px: 1.0,
+                ..Fit::default()
+            },
+        );
+        let held = |refined| Held {
+            pose: &own,
+            fit: &fit,
+            determined: true,
+            refined,
+        };
+        let [deeper, turned] = [pose(-1030.0, 0.0), pose(-1000.0, 5.0)];
+        assert!(held(true).is_beside(&deeper, 0.7) && !held(false).is_beside(&deeper, 0.7));
+        // Both came to one end.
+        assert!(!held(true).is_beside(&deeper, 0.8));
+        assert!(held(true).is_beside(&turned, 2.0) && held(false).is_beside(&turned, 0.5));
     }
 }

@@ -30,5 +30,8 @@ export function anew(cell: Cell): Cell {
   if (result === null) return cell;
   if (isFromFilm(result)) return { ...cell, result: null, resultOf: null };
   const isGiven = result.kind === 'posed' && (result.from === 'hand' || result.from === 'file');
-  return isGiven && result.verdict !== null ? { ...cell, result: { ...result, verdict: null } } : cell;
+  if (!isGiven || (result.verdict === null && !result.rivals)) return cell;
+  // What had been found there was found with the one before.
+  const { rivals: _, ...given } = result;
+  return { ...cell, result: { ...given, verdict: null } };
 }
