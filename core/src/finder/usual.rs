@@ -116,6 +116,26 @@ mod tests {
         assert!(misfits.doubt(1.4).is_some());
     }
 
+    /// In larger or smaller pixels, and on films that are explained better or worse.
+    #[test]
+    fn what_is_unusual_is_told_by_ratios_alone() {
+        let own = [0.57, 0.61, 0.77, 0.56, 0.58];
+        for times in [0.1, 0.5, 2.0, 40.0] {
+            let own = own.map(|px| times * px);
+            let misfits = FilmMisfits {
+                own: &own,
+                others: &[],
+            };
+            for (px, is_usual) in [(0.86, true), (0.88, false)] {
+                assert_eq!(
+                    misfits.doubt(times * px).is_none(),
+                    is_usual,
+                    "{times} {px}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn few_frames_of_its_own_tell_nothing() {
         let misfits = FilmMisfits {

@@ -90,6 +90,7 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pose::EulerPose;
     use std::vec::Vec;
 
     /// A square of 20 mm in cells of `sides` mm, one after another from the left, of two triangles a millimetre of height each.
@@ -143,6 +144,39 @@ mod tests {
             let wanted = beyond(&even, right_mm);
             assert_eq!(beyond(&fine_left, right_mm), wanted, "{right_mm}");
             assert_eq!(beyond(&fine_right, right_mm), wanted, "{right_mm}");
+        }
+    }
+
+    /// Cells lie along the model's axes: in others they are others, and tell the same but for what one of them holds.
+    #[test]
+    fn the_models_axes_matter_by_a_cell_at_most() {
+        let even = square([0.5; 40]);
+        for turned_deg in [10.0, 33.0, 45.0, 71.0] {
+            let turn = Pose::from(EulerPose {
+                z_rot_deg: turned_deg,
+                x_rot_deg: turned_deg / 2.0,
+                ..EulerPose::default()
+            });
+            let other_axes = |vertex: &[f32; 3]| {
+                turn.inverse()
+                    .transform(&vertex.map(f64::from))
+                    .map(|x| x as f32)
+            };
+            let turned: Vec<[f32; 3]> = even.0.iter().map(other_axes).collect();
+            let model = Model::from_triangles(&turned, &even.1).expect("a square");
+            let camera = Camera::new(100, 100, [1000.0; 2], [50.0; 2]).expect("valid");
+            for right_mm in [43.0, 46.0, 50.0, 54.0, 57.0] {
+                let there = Pose {
+                    translation: [right_mm, 0.0, -1000.0],
+                    ..turn
+                };
+                let part = part_beyond(&model, &camera, &there);
+                let wanted = beyond(&even, right_mm);
+                assert!(
+                    (part - wanted).abs() < 0.1,
+                    "{turned_deg} {right_mm}: {part} {wanted}"
+                );
+            }
         }
     }
 
