@@ -5,6 +5,7 @@ import { atRest, pageTest, step, until, visit } from './support/browser.mjs';
 import { exported, exportSheet, openExport, savedFile } from './support/exporting.mjs';
 import { choose } from './support/files.mjs';
 import { openFollowed } from './support/followed.mjs';
+import { unzipped } from './support/masks.mjs';
 import * as panel from './support/panel.mjs';
 import { reported } from './support/report.mjs';
 import { Stage } from './support/stage.mjs';
@@ -40,6 +41,17 @@ pageTest('what is published', async (page, t) => {
     await sameFilm(saved.film, written, t);
     // The command's own film, read by a browser: as many frames in the same time.
     await sameFilm({ ...saved.film, name: 'overlay.webm', buffer: await written('overlay.webm') }, written, t);
+  });
+  await step(page, t, 'is in one file with all results', async () => {
+    const files = unzipped(await exported(page, 'All results'));
+    const poses = unzipped(await exported(page, 'Poses', 'For commands'));
+    assert.deepEqual(Object.keys(files).sort(), ['figure.pdf', 'figure.svg', 'joint.csv', 'report.html', ...Object.keys(poses).map((name) => `poses/${name}`)].sort());
+    const text = (/** @type {string} */ name) => Buffer.from(files[name]).toString();
+    assert.equal(text('joint.csv'), saved.table.buffer.toString());
+    assert.equal(text('figure.svg'), saved.figure.buffer.toString());
+    assert.match(text('figure.pdf'), /^%PDF-/);
+    assert.match(text('report.html'), /<table/);
+    for (const [name, bytes] of Object.entries(poses)) assert.deepEqual(Buffer.from(files[`poses/${name}`]), Buffer.from(bytes));
   });
   await step(page, t, 'stays the next step when the session is opened again', async () => {
     const next = () => page.getByRole('list', { name: 'Steps' }).locator('[aria-current]').innerText();

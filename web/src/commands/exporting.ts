@@ -35,6 +35,8 @@ export function fileName({ name, frames }: Doc, { kind, forms, component, column
   switch (kind) {
     case 'session':
       return forms.session === 'study' ? 'study.toml' : `${stem}.fluoropose.json`;
+    case 'results':
+      return `${stem}_results.zip`;
     case 'poses':
       if (forms.poses === 'tra') return `${stem}.tra`;
       if (forms.poses === 'jtap') return `${stem}_${component}_frame_${String(Math.min(frameIndex, frames.length - 1) + 1).padStart(4, '0')}.jtap`;
@@ -66,6 +68,7 @@ export async function textOf(app: App, { kind, forms, component, column }: Expor
       return publish(forms.joint === 'cycle' ? { form: 'cycle', column } : { form: forms.joint === 'csv' ? 'table' : 'mot' });
     case 'figure':
       return publish({ form: 'figure' });
+    case 'results':
     case 'report':
       return publish({ form: 'report' });
     case 'outlines':
@@ -116,9 +119,9 @@ async function makeFile(app: App, exporting: Exporting, film: FilmType | null): 
   if (kind === 'figure' && forms.figure === 'pdf') {
     return { part: await app.joint.figurePdf(await publishedFilm(doc, app.joint.numbers)), type: 'application/pdf' };
   }
-  if (kind === 'poses' && forms.poses === 'folder') {
-    const jts = (component: ComponentName) => services.studio.writePoses(posesOf(doc, component));
-    return { part: (await import('../exchange/tracked')).zipOf(doc, { femur: jts('femur'), tibia: jts('tibia') }), type: 'application/zip' };
+  if (kind === 'results' || (kind === 'poses' && forms.poses === 'folder')) {
+    const packing = await import('./packing');
+    return { part: await (kind === 'results' ? packing.resultsOf(app, doc) : packing.posesFolderOf(app, doc)), type: 'application/zip' };
   }
   const text = (await textOf(app, exporting)) ?? '';
   if (kind === 'figure' && forms.figure === 'png') return { part: await pngOf(text), type: 'image/png' };

@@ -1,5 +1,6 @@
 import { COMPONENT_COLOURS } from '../controls/colours';
 import { distortionKey, fits, numbersOf } from '../document/distortion';
+import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import { asJob, type Services } from '../jobs/services';
 import type { JointNumbers } from '../results/joint_curves';
@@ -10,6 +11,7 @@ import { COMPONENT_NAMES, titleOf } from '../terms/component';
 import type { Preprocessing } from '../terms/seeing';
 import { formatNumber } from '../texts/numbers';
 import { later } from '../texts/later';
+import { texts } from '../texts/texts';
 import { overlayWorker } from '../workers/start';
 import type { FilmType, OverlayCurve, OverlayFrame, OverlayLook } from '../workers/protocol/overlay';
 
@@ -143,15 +145,19 @@ export class OverlayPictures {
   }
 }
 
-/** What is missing or doubtful, so that nobody takes a picture for more than it is. */
-function notesOn(doc: Doc, index: number): string[] {
-  const { none, doubtful } = later.exporting.film;
+/** What is missing or doubtful, so that nobody takes a picture for more than it is; of what a person has accepted, that it was. */
+export function notesOn(doc: Doc, index: number): string[] {
+  const { none, doubtful, accepted } = later.exporting.film;
+  const frameId = doc.frames[index]?.id;
+  if (frameId === undefined) return [];
   return COMPONENT_NAMES.flatMap((component) => {
-    const cell = cellOf(doc, doc.frames[index]?.id, component);
+    const cell = cellOf(doc, frameId, component);
     const title = titleOf(component);
     if (!chosenCandidate(cell)) return [none(title)];
     const doubt = doubtOf(cell);
-    return doubt === null ? [] : [doubtful(title, doubt)];
+    if (doubt === null) return [];
+    const isAccepted = checkState(cell, markOf(doc, { frameId, component })) === 'yes';
+    return [isAccepted ? accepted(title, texts.follow.accepted(doubt)) : doubtful(title, doubt)];
   });
 }
 

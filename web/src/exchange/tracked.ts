@@ -1,4 +1,3 @@
-import { strToU8, zipSync } from 'fflate';
 import { CONSTANTS, filmNumbers, squareOf } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
@@ -25,14 +24,13 @@ export function statesOf(doc: Doc): string {
   return tableOf([HEAD, ...rows]);
 }
 
-/** All files of the folder, packed. `jts`: the poses of each component. */
-export function zipOf(doc: Doc, jts: Readonly<Record<ComponentName, string>>): Uint8Array<ArrayBuffer> {
+/** All files of the folder by their names. `jts`: the poses of each component. */
+export function trackedFiles(doc: Doc, jts: Readonly<Record<ComponentName, string>>): readonly (readonly [string, string])[] {
   const files = COMPONENT_NAMES.flatMap((component) => [
-    [`${component}.jts`, jts[component]],
-    [`${component}.covariances.csv`, covariancesOf(doc, component)],
+    [`${component}.jts`, jts[component]] as const,
+    [`${component}.covariances.csv`, covariancesOf(doc, component)] as const,
   ]);
-  const all = [...files, ['track.csv', statesOf(doc)], ['film.csv', constantsOf(doc)]] as const;
-  return zipSync(Object.fromEntries(all.map(([name, text]) => [name, strToU8(text!)]))) as Uint8Array<ArrayBuffer>;
+  return [...files, ['track.csv', statesOf(doc)], ['film.csv', constantsOf(doc)]];
 }
 
 const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const;

@@ -30,7 +30,7 @@ function TextPreview({ state }: { state: State }) {
   const { value } = made;
   if (!value) return null;
   if (exporting.kind === 'figure') return <Picture of={new Blob([value], { type: 'image/svg+xml' })} key={value} />;
-  if (exporting.kind === 'report') return <Page html={value} />;
+  if (exporting.kind === 'report' || exporting.kind === 'results') return <Page html={value} />;
   return (
     <pre class="export-preview" tabIndex={0} role="region" aria-label={words.preview}>
       {value.length > LETTERS ? `${value.slice(0, LETTERS)}\u2026` : value}

@@ -101,7 +101,7 @@ function Options({ state }: { state: State }) {
   const titles: Readonly<Record<string, string>> = words.forms[kind];
   const options = FORMS[kind].map((form) => ({ value: form as string, title: titles[form] ?? form, hint: words.hints[`${kind} ${form}`] ?? titles[form] ?? form }));
   const hint = words.hints[`${kind} ${forms[kind]}`];
-  const isTimed = (kind === 'joint' && forms.joint !== 'cycle') || kind === 'report' || (kind === 'film' && forms.film === 'video');
+  const isTimed = (kind === 'joint' && forms.joint !== 'cycle') || kind === 'report' || kind === 'results' || (kind === 'film' && forms.film === 'video');
   return (
     <div class="export-options">
       {options.length > 1 && <Segments label={words.form} options={options} value={forms[kind]} onChoose={(form) => set({ forms: { ...forms, [kind]: form } })} />}

@@ -1,12 +1,13 @@
 import type { ComponentName } from './component';
 
 /** What leaves the page as a file. */
-export const EXPORTS = ['session', 'poses', 'joint', 'figure', 'report', 'film', 'outlines'] as const;
+export const EXPORTS = ['session', 'results', 'poses', 'joint', 'figure', 'report', 'film', 'outlines'] as const;
 export type ExportKind = (typeof EXPORTS)[number];
 
 /** Forms of each, the usual one first. */
 export const FORMS = {
   session: ['whole', 'without files', 'study'],
+  results: ['zip'],
   poses: ['jts', 'csv', 'jtak', 'jtap', 'tra', 'folder'],
   joint: ['csv', 'mot', 'cycle'],
   figure: ['svg', 'pdf', 'png'],
@@ -33,7 +34,7 @@ export interface Exporting {
 
 export const DEFAULT_EXPORTING: Exporting = {
   kind: 'session',
-  forms: { session: 'whole', poses: 'jts', joint: 'csv', figure: 'svg', report: 'html', film: 'video', outlines: 'outlines' },
+  forms: { session: 'whole', results: 'zip', poses: 'jts', joint: 'csv', figure: 'svg', report: 'html', film: 'video', outlines: 'outlines' },
   component: 'femur',
   column: 'flexion_deg',
 };

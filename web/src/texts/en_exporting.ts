@@ -3,9 +3,10 @@ import type { ExportKind, FormOf } from '../terms/exporting';
 /** English of the sheet that writes files. */
 export const exporting = {
   kinds: 'What to save',
-  kind: { session: 'Session', poses: 'Poses', joint: 'Joint numbers', figure: 'Figure', report: 'Report', film: 'Overlay film', outlines: 'Outlines' } satisfies Record<ExportKind, string>,
+  kind: { session: 'Session', results: 'All results', poses: 'Poses', joint: 'Joint numbers', figure: 'Figure', report: 'Report', film: 'Overlay film', outlines: 'Outlines' } satisfies Record<ExportKind, string>,
   meaning: {
     session: 'Frames, calibration, models, outlines, poses, marks, notes, window and level: the whole work in one file.',
+    results: 'Poses, joint numbers, figure and report in one ZIP: what tables and papers are made from. Work goes on from the session.',
     poses: 'Where a component is in each frame, seen from the X-ray’s focus.',
     joint: 'How the knee moves: every number of every frame, each with its standard deviation.',
     figure: 'Four panels as they are published: AP of both condyles, rotation, the tray from above, abduction and lift-off.',
@@ -16,6 +17,7 @@ export const exporting = {
   form: 'Form',
   forms: {
     session: { whole: 'With images and models', 'without files': 'Without (named by SHA-256)', study: 'Study file' },
+    results: { zip: 'ZIP' },
     poses: { jts: 'JTS', csv: 'CSV', jtak: 'JTAK', jtap: 'JTAP', tra: 'TRA', folder: 'For commands' },
     joint: { csv: 'CSV', mot: 'MOT', cycle: '101 points' },
     figure: { svg: 'SVG', pdf: 'PDF', png: 'PNG' },
@@ -62,6 +64,7 @@ export const exporting = {
     time: (seconds: string) => `${seconds} s`,
     none: (component: string) => `${component}: no pose`,
     doubtful: (component: string, why: string) => `${component} doubtful: ${why}`,
+    accepted: (component: string, why: string) => `${component}: ${why}`,
     noCurves: 'No joint numbers',
     absent: (frame: number) => `Frame ${frame} is not here: drop its file on the page, then save the film.`,
     unknownRate: (rate: number) => `Nobody has said how fast the film was taken: it runs at ${rate} frames a second.`,

@@ -1,6 +1,7 @@
 import { describe, expect, it, vi } from 'vitest';
 import { addFrames, setCalibration, setModel } from '../../src/document/commands';
-import { setPoseByHand } from '../../src/document/hand_poses';
+import { toggleChecked } from '../../src/document/marks';
+import { bare, setPoseByHand, takeHandFit } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
 import type { OverlayFrame } from '../../src/workers/protocol/overlay';
 
@@ -41,5 +42,16 @@ describe('a film of overlays', () => {
     const look = overlayLook(store.doc, { columns: [], hasPlate: false, plate: new Float64Array(), otherSide: null, of: new Map(), impossible: new Map(), originsApart: null, waiting: 0 })!;
     await writeOverlayFilm({ store, studio } as never, look, 'pictures');
     expect(painted.map(({ poses, camera }) => [poses[0]?.pose.x, camera?.text])).toEqual([[0, 'c'], [1, 'c'], [2, 'c'], [3, 'c']]);
+  });
+
+  it('says of a doubtful pose that a person accepted it', async () => {
+    const { notesOn } = await import('../../src/commands/overlay_film');
+    const store = begin();
+    const place = { frameId: 'f1', component: 'femur' } as const;
+    store.perform(takeHandFit(place, { candidate: bare(poseOf(1)), reason: 'r', verdict: { word: 'doubtful', because: 'too deep' }, onFrame: null }));
+    expect(notesOn(store.doc, 1)).toEqual(['Femur doubtful: too deep', 'Tibia: no pose']);
+    store.perform(toggleChecked(place));
+    expect(notesOn(store.doc, 1)).toEqual(['Femur: a person accepted it; it was doubtful: too deep', 'Tibia: no pose']);
+    expect(notesOn(store.doc, 9)).toEqual([]);
   });
 });

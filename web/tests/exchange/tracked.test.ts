@@ -1,4 +1,3 @@
-import { strFromU8, unzipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import { addFrames, chooseCandidate, setModel, withCell } from '../../src/document/commands';
 import { bare } from '../../src/document/hand_poses';
@@ -6,7 +5,7 @@ import { withKnownFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Candidate, Posed, Result } from '../../src/document/types';
-import { statesOf, zipOf } from '../../src/exchange/tracked';
+import { statesOf, trackedFiles } from '../../src/exchange/tracked';
 import type { ComponentName } from '../../src/terms/component';
 
 const POSE = { x: 1, y: 2, z: -1000, zRot: 3, xRot: 4, yRot: 5 };
@@ -99,12 +98,12 @@ describe('poses as the commands take them', () => {
   });
 
   it('have whole covariances, and what of them is the film\u2019s where that is known', () => {
-    const files = unzipSync(zipOf(film().doc, { femur: 'F', tibia: 'T' }));
+    const files = Object.fromEntries(trackedFiles(film().doc, { femur: 'F', tibia: 'T' }));
     expect(Object.keys(files)).toEqual(['femur.jts', 'femur.covariances.csv', 'tibia.jts', 'tibia.covariances.csv', 'track.csv', 'film.csv']);
-    const rows = (name: string) => strFromU8(files[name]!).trimEnd().split('\r\n').slice(1).map((row) => row.split(',').map(Number));
+    const rows = (name: string) => files[name]!.trimEnd().split('\r\n').slice(1).map((row) => row.split(',').map(Number));
     expect(rows('femur.covariances.csv')).toEqual([[1, ...WHOLE, ...FILM], [2, ...WHOLE]]);
     expect(rows('tibia.covariances.csv')).toEqual([[1, ...WHOLE]]);
-    expect(strFromU8(files['tibia.jts']!)).toBe('T');
+    expect(files['tibia.jts']).toBe('T');
   });
 
   it('have the constants of the film, with deviations where they were estimated', () => {
@@ -114,7 +113,7 @@ describe('poses as the commands take them', () => {
     const numbers = [0.01, 1.5, 0.2, 4, 0, 0, 0, 9, 0, 0, 0, 16, 0.8, 2.5, 60, 0.3];
     const models = { femur: { of: 'f', numbers }, tibia: { of: 't', numbers: [0.01, 1.5, 0.3, ...Array(9).fill(0), 0.8, 2.5, 60, 0.3, 2] } };
     store.amend((doc) => withKnownFilm(doc, { words: '', stated: doc.film.stated, blur: 1.5, curved: 1, profiles: 9, models }));
-    const rows = strFromU8(unzipSync(zipOf(store.doc, { femur: 'F', tibia: 'T' }))['film.csv']!).split('\r\n');
+    const rows = Object.fromEntries(trackedFiles(store.doc, { femur: 'F', tibia: 'T' }))['film.csv']!.split('\r\n');
     expect(rows.slice(1)).toEqual(['femur,0.01,2,1.5,4.5,0.2,0.8,0.8,2.5,1', 'tibia,0.01,0,3,0,0.3,0,0.8,5,2', '']);
   });
 });
