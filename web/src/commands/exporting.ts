@@ -1,15 +1,15 @@
-import { cellOf, chosenCandidate, type Doc, type Outline } from '../document/types';
+import { cellOf, type Doc, type Outline } from '../document/types';
 import { poseTable } from '../document/session/table';
 import { writeCoco } from '../exchange/coco';
 import { download } from '../exchange/browser_files';
 import { fileStem } from '../terms/file_name';
 import { exportMasks } from '../exchange/exporter';
 import { writeOutlines } from '../exchange/outline_file';
+import { posesOf } from '../exchange/pose_rows';
 import { publishedFilm } from '../exchange/publish';
-import type { PoseNumbers } from '../geometry/pose_numbers';
 import { sentenceOf } from '../jobs/services';
 import { asWritten } from '../results/outdated';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { COMPONENT_NAMES } from '../terms/component';
 import type { Exporting, ExportKind } from '../terms/exporting';
 import { PROGRAM } from '../terms/program';
 import { later } from '../texts/later';
@@ -84,10 +84,6 @@ export async function textOf(app: App, { kind, forms, component, column }: Expor
     default:
       return null;
   }
-}
-
-export function posesOf(doc: Doc, component: ComponentName): readonly (PoseNumbers | null)[] {
-  return doc.frames.map(({ id }) => chosenCandidate(cellOf(doc, id, component))?.pose ?? null);
 }
 
 /** Writes what the sheet shows, and says so. */

@@ -1,10 +1,10 @@
 import { strToU8, zipSync } from 'fflate';
 import type { Doc } from '../document/types';
+import { posesOf } from '../exchange/pose_rows';
 import { publishedFilm } from '../exchange/publish';
 import { trackedFiles } from '../exchange/tracked';
 import type { ComponentName } from '../terms/component';
 import type { App } from './app';
-import { posesOf } from './exporting';
 
 /** Several files in one: a folder, packed. */
 type Packed = Uint8Array<ArrayBuffer>;

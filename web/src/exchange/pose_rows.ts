@@ -1,5 +1,12 @@
-import type { FrameEntry } from '../document/types';
+import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
 import { byName } from './name_order';
+
+/** The poses of a component, a row a frame; null where there is none. */
+export function posesOf(doc: Doc, component: ComponentName): readonly (PoseNumbers | null)[] {
+  return doc.frames.map(({ id }) => chosenCandidate(cellOf(doc, id, component))?.pose ?? null);
+}
 
 /**
  * The row of each frame in a file of poses that names none: row and frame go together where there are as many rows as frames. Where files of

@@ -1,7 +1,8 @@
 import type { ComponentChildren } from 'preact';
-import { outlinesOf, posesOf } from '../commands/exporting';
+import { outlinesOf } from '../commands/exporting';
 import type { State } from '../document/store';
 import { cellOf, chosenCandidate } from '../document/types';
+import { posesOf } from '../exchange/pose_rows';
 import type { JointNumbers } from '../results/joint_curves';
 import { motionNeeds } from '../results/motion';
 import { later } from '../texts/later';
