@@ -171,7 +171,10 @@ impl Matcher {
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
     #[wasm_bindgen(js_name = refineOnFrame)]
-    #[allow(clippy::too_many_arguments)]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "JavaScript passes arrays and handles, one by one"
+    )]
     pub fn refine_on_frame(
         &mut self,
         film: &FrameImage,

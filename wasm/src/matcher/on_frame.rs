@@ -133,7 +133,10 @@ impl Matcher {
     /// # Errors
     /// The core's sentence about why none can be corrected, or one about the numbers.
     #[wasm_bindgen(js_name = correctOnFrame)]
-    #[allow(clippy::too_many_arguments)]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "JavaScript passes arrays and handles, one by one"
+    )]
     pub fn correct_on_frame(
         &mut self,
         frame: &FrameImage,
