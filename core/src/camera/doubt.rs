@@ -12,6 +12,8 @@ const OFF_CENTRE: f64 = 0.2;
 const TIMES: core::ops::RangeInclusive<f64> = 1.8..=10.0;
 /// Distances from focus to detector, mm: of small arms for hands, and of walls that are looked at from afar.
 const DISTANCES: core::ops::RangeInclusive<f64> = 300.0..=5000.0;
+/// The longer side of a detector's field, mm: of image intensifiers that are switched to their smallest field, and of the largest flat panels.
+const FIELDS: core::ops::RangeInclusive<f64> = 140.0..=450.0;
 /// Columns and rows of detectors and of their binned frames are multiples of this; those of a frame that somebody cut are so by chance.
 const BINNED: usize = 4;
 /// Sides of pixels differ by less.
@@ -41,6 +43,13 @@ pub enum CameraDoubt {
     },
     /// No X-ray set has its detector at this distance from the focus, mm.
     Distance(f64),
+    /// No detector has a field of this size.
+    Field {
+        /// Width and height of the frame, pixels.
+        frame: [usize; 2],
+        /// The same on the detector, mm.
+        wide: [f64; 2],
+    },
     /// The frames look as if they were cut, and the calibration does not say of which frames it is.
     Cut {
         /// Width and height of the frame, pixels.
@@ -60,17 +69,20 @@ impl Calibration {
                 distance, pitch, ..
             } => [
                 (!DISTANCES.contains(&distance)).then_some(CameraDoubt::Distance(distance)),
-                frame
-                    .iter()
-                    .any(|side| side % BINNED != 0)
-                    .then_some(CameraDoubt::Cut {
-                        frame,
-                        wide: frame.map(|side| side as f64 * pitch),
-                    }),
+                field_doubt(frame, frame.map(|side| side as f64 * pitch)),
             ],
         };
         camera.doubts().chain(own.into_iter().flatten())
     }
+}
+
+/// Of a frame that is so wide and high on the detector, mm: one that was cut may be of any size.
+fn field_doubt(frame: [usize; 2], wide: [f64; 2]) -> Option<CameraDoubt> {
+    if frame.iter().any(|side| side % BINNED != 0) {
+        return Some(CameraDoubt::Cut { frame, wide });
+    }
+    let longer = wide[0].max(wide[1]);
+    (!FIELDS.contains(&longer)).then_some(CameraDoubt::Field { frame, wide })
 }
 
 impl Camera {
@@ -116,6 +128,14 @@ impl fmt::Display for CameraDoubt {
             Self::Distance(mm) => write!(
                 f,
                 "the principal distance is {mm} mm; detectors stand 0.3 to 5 m from the focus: is it in mm, and the pixel pitch too?"
+            ),
+            Self::Field {
+                frame: [width, height],
+                wide: [right, down],
+            } => write!(
+                f,
+                "a frame of {width} x {height} pixels would be {right:.0} x {down:.0} mm of the detector, and detectors have fields of 14 to 45 cm: is the \
+                 pixel pitch in mm, and that of frames of this size? Where they were made smaller or larger after the calibration, it becomes larger or smaller by as much"
             ),
             Self::Cut {
                 frame: [width, height],
@@ -178,13 +198,36 @@ mod tests {
         for size in [(1024, 1024), (880, 880), (1000, 1000), (768, 576)] {
             assert!(told(1198.0, 0.373, size).is_empty(), "{size:?}");
         }
-        let [centimetres] = told(119.8, 0.0373, (1024, 1024)).try_into().expect("one");
+        let [centimetres, field] = told(119.8, 0.0373, (1024, 1024)).try_into().expect("two");
         assert!(centimetres.contains("is 119.8 mm"), "{centimetres}");
+        assert!(field.contains("38 x 38 mm"), "{field}");
         let [cut] = told(1198.0, 0.373, (650, 430)).try_into().expect("one");
         assert!(
             cut.contains("650 x 430 pixels") && cut.contains("242 x 160 mm"),
             "{cut}"
         );
+    }
+
+    /// As by another program's export: a focal length of 4.4 sides in pixels stays one that X-ray sets have, at half and at twice the size.
+    #[test]
+    fn frames_that_were_resized_after_the_calibration_are_told_where_no_detector_is_of_that_size() {
+        let told = |size: (usize, usize)| {
+            let calibration = Calibration::PrincipalDistance {
+                distance: 1198.0,
+                offset: [-14.1, -12.2],
+                pitch: 0.2668,
+            };
+            let camera = calibration.camera(size.0, size.1).expect("possible");
+            let told = calibration.doubts(&camera).map(|doubt| doubt.to_string());
+            told.collect::<std::vec::Vec<_>>()
+        };
+        assert!(told((1024, 1024)).is_empty());
+        let [half] = told((512, 512)).try_into().expect("one");
+        assert!(half.contains("137 x 137 mm of the detector"), "{half}");
+        let [twice] = told((2048, 2048)).try_into().expect("one");
+        assert!(twice.contains("546 x 546 mm of the detector"), "{twice}");
+        // The longer side counts: strips are read out of detectors.
+        assert!(told((1024, 256)).is_empty());
     }
 
     #[test]
