@@ -67,10 +67,16 @@ impl Calibration {
             Self::CameraMatrix { .. } => [None, None],
             Self::PrincipalDistance {
                 distance, pitch, ..
-            } => [
-                (!DISTANCES.contains(&distance)).then_some(CameraDoubt::Distance(distance)),
-                field_doubt(frame, frame.map(|side| side as f64 * pitch)),
-            ],
+            } => {
+                let off =
+                    (!DISTANCES.contains(&distance)).then_some(CameraDoubt::Distance(distance));
+                let field = field_doubt(frame, frame.map(|side| side as f64 * pitch));
+                // What is wrong with the focal length or the distance is wrong with the field too.
+                let is_told = off.is_some() || !TIMES.contains(&camera.focal_in_sides());
+                let is_new =
+                    |doubt: &CameraDoubt| !(is_told && matches!(doubt, CameraDoubt::Field { .. }));
+                [off, field.filter(is_new)]
+            }
         };
         camera.doubts().chain(own.into_iter().flatten())
     }
@@ -95,7 +101,7 @@ impl Camera {
         );
         let off = |k: usize| (point[k] / frame[k] as f64 - 0.5).abs() > OFF_CENTRE;
         let longer = focal[0].max(focal[1]);
-        let times = longer / frame[0].max(frame[1]) as f64;
+        let times = self.focal_in_sides();
         [
             (off(0) || off(1)).then_some(CameraDoubt::PrincipalPoint { point, frame }),
             (!TIMES.contains(&times)).then_some(CameraDoubt::Focal {
@@ -106,6 +112,12 @@ impl Camera {
         ]
         .into_iter()
         .flatten()
+    }
+
+    /// The longer focal length in longer sides of the frame.
+    fn focal_in_sides(&self) -> f64 {
+        let [horizontal, vertical] = self.focal();
+        horizontal.max(vertical) / self.width().max(self.height()) as f64
     }
 }
 
@@ -198,9 +210,10 @@ mod tests {
         for size in [(1024, 1024), (880, 880), (1000, 1000), (768, 576)] {
             assert!(told(1198.0, 0.373, size).is_empty(), "{size:?}");
         }
-        let [centimetres, field] = told(119.8, 0.0373, (1024, 1024)).try_into().expect("two");
+        let [centimetres] = told(119.8, 0.0373, (1024, 1024)).try_into().expect("one");
         assert!(centimetres.contains("is 119.8 mm"), "{centimetres}");
-        assert!(field.contains("38 x 38 mm"), "{field}");
+        let [a_mm] = told(1198.0, 2.68, (1024, 1024)).try_into().expect("one");
+        assert!(a_mm.contains("0.44 times"), "{a_mm}");
         let [cut] = told(1198.0, 0.373, (650, 430)).try_into().expect("one");
         assert!(
             cut.contains("650 x 430 pixels") && cut.contains("242 x 160 mm"),
