@@ -14,9 +14,10 @@ fn measure(mask: &Mask<'_>, area: u32, aspect: f64) -> Result<CanonicalForm, Can
     let [cc, cr, rr] = moments.covariance();
     let (xx, xy, yy) = (cc, -cr * aspect, rr * aspect * aspect);
     let spread = sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy);
-    if spread == 0.0 || xx + yy == 0.0 {
-        return Err(CanonicalError::NoAxis);
+    if xx + yy == 0.0 {
+        return Err(CanonicalError::Pixel);
     }
+    // A disc has every axis, and any serves: level, as `atan2` has it of nothing. Heads, cups and buttons are round from somewhere.
     Ok(CanonicalForm {
         area_px: moments.area,
         centroid: moments.centroid(),
@@ -38,7 +39,7 @@ fn measure(mask: &Mask<'_>, area: u32, aspect: f64) -> Result<CanonicalForm, Can
 /// would be between pixels, not at the nearest one.
 ///
 /// # Errors
-/// [`CanonicalError`] for an empty or shapeless mask or memory of the wrong length.
+/// [`CanonicalError`] for an empty mask, one of a single pixel, or memory of the wrong length.
 pub fn canonicalise(
     mask: &Mask<'_>,
     spec: &CanonicalSpec,
@@ -171,6 +172,29 @@ mod tests {
         }
     }
 
+    /// What is as wide in all directions to the last bit has a form all the same, and is where it is.
+    #[test]
+    fn what_has_no_longer_axis_has_a_form() {
+        let spec = CanonicalSpec::default();
+        let mut out = std::vec![0; spec.words_needed()];
+        for is_round in [false, true] {
+            let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+            let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("valid");
+            for (column, row) in (0..60).flat_map(|column| (0..60).map(move |row| (column, row))) {
+                let (x, y) = (2 * column - 59i32, 2 * row - 59i32);
+                if !is_round || x * x + y * y < 59 * 59 {
+                    mask.set(column as usize + 100, row as usize + 120, true);
+                }
+            }
+            let form = canonicalise(&mask.into_mask(), &spec, 1.0, &mut out).expect("a form");
+            assert_eq!((form.elongation, form.angle), (0.0, 0.0));
+            assert_eq!((form.centroid.column, form.centroid.row), (130.0, 150.0));
+            let area = Mask::new(&out, 256, 256).expect("valid").area();
+            // A row of pixels more or less.
+            assert!((area as f64 - 15_000.0).abs() < 140.0, "{area}");
+        }
+    }
+
     #[test]
     fn nothing_has_no_form() {
         let spec = CanonicalSpec::default();
@@ -186,7 +210,7 @@ mod tests {
         let mask = Mask::new(&one, SIDE, SIDE).expect("valid");
         assert_eq!(
             canonicalise(&mask, &spec, 1.0, &mut out),
-            Err(CanonicalError::NoAxis)
+            Err(CanonicalError::Pixel)
         );
         assert!(CanonicalSpec::new(100, 1000).is_err());
         assert!(CanonicalSpec::new(64, 3000).is_err());

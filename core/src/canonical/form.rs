@@ -35,9 +35,9 @@ pub enum CanonicalError {
     /// The working memory has the wrong length, or the mask is empty.
     #[error(transparent)]
     Mask(#[from] MaskError),
-    /// The pixels lie on one line or form a disc: no axis is longer than the other.
-    #[error("the silhouette has no principal axis: its second moments are equal in all directions")]
-    NoAxis,
+    /// A single pixel has a place and nothing else.
+    #[error("the silhouette is a single pixel")]
+    Pixel,
 }
 
 impl CanonicalSpec {
@@ -104,7 +104,7 @@ pub struct CanonicalForm {
     /// Centroid of the silhouette, continuous image coordinates.
     pub centroid: Point,
     /// Direction of the principal axis, radians, -pi/2 to pi/2. An axis has two directions:
-    /// this angle and this angle plus pi describe the same silhouette.
+    /// this angle and this angle plus pi describe the same silhouette. 0 where no axis is longer than the others.
     pub angle: f64,
     /// Canonical pixels per frame pixel.
     pub scale: f64,
