@@ -77,7 +77,8 @@ pub struct FilmError {
 ///
 /// Frames that residual or tilt decide keep their own choice and reason. The others are decided
 /// by the film only where at least one frame is decided by itself: a film mirrored as a whole is
-/// as smooth as the right one.
+/// as smooth as the right one. Nor does a film decide that jumps at a frame, or all along, as far as any other pose
+/// would cost it: of single pictures one of the poses is always the nearest to those beside it.
 ///
 /// # Errors
 /// [`FilmError`] where `steps` or `choices` are fewer or more than the frames.
@@ -102,7 +103,9 @@ pub fn choose_film(
     let anchored = choices.iter().flatten().any(Choice::is_decided);
     let last = forward(frames, steps);
     backward(frames, steps);
-    follow(frames, steps, choices, last, anchored);
+    if let Some(last) = last {
+        follow(frames, steps, choices, last, anchored);
+    }
     Ok(())
 }
 
@@ -139,6 +142,17 @@ impl FilmStep {
         step
     }
 
+    /// The pose to which the cheapest film leads that ends here, and what that costs.
+    fn cheapest(&self) -> (usize, f64) {
+        cheapest(self.count, |&number| self.before[number]).unwrap_or((0, 0.0))
+    }
+
+    /// How far the film jumps to pose `number` from the last of the steps `before` that has poses, degrees.
+    fn jump_to_deg(&self, number: usize, before: &[Self]) -> Option<f64> {
+        let last = before.iter().rev().find(|step| step.count > 0)?;
+        Some(self.before[number] - self.own[number] - last.before[self.from[number]])
+    }
+
     /// Poses that are open, by their number among those.
     fn poses<'a>(&self, frame: &FilmFrame<'a>) -> Vec<&'a Pose, CONTENDERS> {
         let pose = |&index: &usize| frame.candidates.get(index).map(|c| &c.pose);
@@ -146,12 +160,12 @@ impl FilmStep {
     }
 
     /// The choice of an open frame in which the cheapest film takes pose `number`, and which
-    /// would have been `alone`.
+    /// would have been `alone`. The film decides from `margin_deg` on.
     fn choice(
         &self,
         frame: &FilmFrame<'_>,
         number: usize,
-        anchored: bool,
+        margin_deg: f64,
         alone: &Choice,
     ) -> Choice {
         let whole = |k: usize| self.before[k] + self.after[k];
@@ -160,7 +174,7 @@ impl FilmStep {
             least.min(whole(k) - whole(number))
         });
         let index = self.open[number];
-        let decided = anchored && saved_deg >= FILM_MARGIN_DEG;
+        let decided = saved_deg >= margin_deg;
         let residual = |k: usize| {
             let candidate = frame.candidates.get(self.open[k]);
             candidate.map_or(f64::NAN, |candidate| candidate.residual_px)
@@ -256,22 +270,40 @@ fn cheapest(count: usize, cost: impl Fn(&usize) -> f64) -> Option<(usize, f64)> 
     all.min_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
-/// Reads the cheapest film backwards into the choices of the frames that are open.
+/// What the cheapest film jumps from frame to frame in the mean, degrees.
+fn mean_jump_deg(steps: &[FilmStep], last: usize) -> f64 {
+    let whole_deg = steps[last].cheapest().1;
+    let frames = steps.iter().filter(|step| step.count > 0).count();
+    whole_deg / frames.saturating_sub(1).max(1) as f64
+}
+
+/// Reads the cheapest film backwards into the choices of the frames that are open. It decides a frame by no less than it jumps itself, to it and from
+/// it on, and by no less than it jumps in the mean.
 fn follow(
     frames: &[FilmFrame<'_>],
     steps: &[FilmStep],
     choices: &mut [Option<Choice>],
-    last: Option<usize>,
+    last: usize,
     anchored: bool,
 ) {
-    let Some(last) = last else { return };
-    let cost = |number: &usize| steps[last].before[*number];
-    let mut number = cheapest(steps[last].count, cost).map_or(0, |(number, _)| number);
+    let mean_deg = mean_jump_deg(steps, last);
+    let mut number = steps[last].cheapest().0;
+    let mut onward_deg = None;
     for at in (0..=last).rev().filter(|&at| steps[at].count > 0) {
+        let to_deg = steps[at].jump_to_deg(number, &steps[..at]);
         if let Some(alone) = choices[at].filter(|_| steps[at].count > 1) {
-            choices[at] = Some(steps[at].choice(&frames[at], number, anchored, &alone));
+            let jumps = [to_deg, onward_deg].into_iter().flatten();
+            let links = jumps.clone().count() as f64;
+            // Of two takes one after the other the jump between them is not the film's.
+            let own_deg = links * jumps.fold(f64::INFINITY, f64::min);
+            let margin_deg = match anchored {
+                true => own_deg.max(mean_deg).max(FILM_MARGIN_DEG),
+                false => f64::INFINITY,
+            };
+            choices[at] = Some(steps[at].choice(&frames[at], number, margin_deg, &alone));
         }
         number = steps[at].from[number];
+        onward_deg = to_deg;
     }
 }
 
