@@ -12,6 +12,7 @@ mod model;
 mod owned;
 #[cfg(feature = "alloc")]
 mod remarks;
+mod revolution;
 mod surface;
 pub mod symmetry;
 mod unit;
@@ -21,5 +22,6 @@ pub use coarse::{clustered, coarser};
 pub use model::{Model, OtherEdges};
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;
+pub use revolution::Revolution;
 pub use surface::*;
 pub use unit::{SuspectedUnit, has_knee_size, suspected_unit};

@@ -98,7 +98,7 @@ pub enum Doubt {
         /// The part that is known.
         known: f64,
     },
-    /// The outline does not determine the pose.
+    /// The outline does not determine the pose, or its rotation no better than [`OTHER_DEG`] (one standard deviation).
     Undetermined,
     /// On its film other poses leave less: it may lie on other edges, or on the wrong side of the mirror.
     Unusual {
@@ -350,7 +350,10 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
 #[must_use]
 pub fn judge_one(candidates: &[Candidate], index: usize, limits: &Limits) -> Option<Verdict> {
     let one = candidates.get(index)?;
-    let determined = one.refined.is_none() || one.covariance.is_some();
+    let determined = one.refined.is_none()
+        || one
+            .covariance
+            .is_some_and(|of| of.rotation_deg() < OTHER_DEG);
     let alone = judge_fit(&one.fit, determined, limits);
     let other = other_of_a_part(candidates, index).and_then(|other| candidates.get(other));
     Some(alone.or_doubt(other.map(|other| Doubt::open(&one.pose, &other.pose, other.misfit()))))

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::math::Vector3;
 use crate::mesh::edges::{Edges, PackedEdges};
+use crate::mesh::revolution::Revolution;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest, SurfaceMark};
 
 /// Edges were given with a mesh that they are not of.
@@ -19,13 +20,18 @@ pub struct OtherEdges;
 pub struct Model<'a> {
     mesh: Mesh<'a>,
     edges: Option<Edges<'a>>,
+    revolution: Option<&'a Revolution>,
 }
 
 impl<'a> Model<'a> {
     /// A model that is drawn triangle by triangle.
     #[must_use]
     pub fn new(mesh: Mesh<'a>) -> Self {
-        Self { mesh, edges: None }
+        Self {
+            mesh,
+            edges: None,
+            revolution: None,
+        }
     }
 
     /// A model that is drawn triangle by triangle, from vertices (mm) and three vertex indices for each triangle.
@@ -55,12 +61,26 @@ impl<'a> Model<'a> {
         Self {
             mesh,
             edges: Some(edges),
+            revolution: None,
         }
     }
 
     /// A model that is drawn from packed edges, which were kept with its mesh.
     pub(crate) fn packed(mesh: Mesh<'a>, edges: PackedEdges<'a>) -> Self {
         Self::linked(mesh, Edges::of_packed(edges, SurfaceMark::NONE))
+    }
+
+    /// The same of a part that is round, as [`crate::mesh::symmetry::revolution`] found: what no outline tells of its poses is then in their
+    /// uncertainty.
+    #[must_use]
+    pub fn with_revolution(self, revolution: Option<&'a Revolution>) -> Self {
+        Self { revolution, ..self }
+    }
+
+    /// The axis of a body of revolution, where that was told.
+    #[must_use]
+    pub fn revolution(&self) -> Option<&'a Revolution> {
+        self.revolution
     }
 
     /// The surface.

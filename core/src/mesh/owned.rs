@@ -8,7 +8,9 @@ use crate::mesh::edges::{
     turn,
 };
 use crate::mesh::model::Model;
+use crate::mesh::revolution::Revolution;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, SurfaceMark};
+use crate::mesh::symmetry::revolution;
 
 /// Vertices, triangles and the edges that silhouettes are drawn from.
 ///
@@ -21,6 +23,7 @@ pub struct OwnedModel {
     bounds: Bounds,
     edges: OwnedEdges,
     faults: SurfaceFaults,
+    revolution: Option<Revolution>,
 }
 
 #[derive(Clone, Debug)]
@@ -43,6 +46,7 @@ impl OwnedModel {
         leave_out_strays(&mut vertices, triangles.as_chunks_mut().0);
         let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
         let bounds = mesh.bounds();
+        let revolution = revolution(&mesh);
         let (mut edges, faults, mut numbers) = linked(&mesh);
         if faults.flipped > 0 {
             let corners = vertices.as_chunks().0;
@@ -56,6 +60,7 @@ impl OwnedModel {
             bounds,
             edges,
             faults,
+            revolution,
         })
     }
 
@@ -79,10 +84,11 @@ impl OwnedModel {
             rims,
             mark,
         } = &self.edges;
-        match Edges::new(boxes, groups, rims, *mark) {
+        let model = match Edges::new(boxes, groups, rims, *mark) {
             Some(edges) => Model::linked(mesh, edges),
             None => Model::new(mesh),
-        }
+        };
+        model.with_revolution(self.revolution.as_ref())
     }
 }
 

@@ -46,6 +46,16 @@ impl OwnedModel {
                 "the file holds {bodies} bodies that do not touch, and all count as this one component: if another component is among them, give each a file of its own"
             ));
         }
+        if let Some(round) = self.as_model().revolution() {
+            let about = if round.is_ball {
+                "any axis"
+            } else {
+                "its axis"
+            };
+            remarks.push(format!(
+                "the part is round: turned about {about} it looks the same, and no frame tells that rotation"
+            ));
+        }
         let bounds = self.as_model().bounds();
         let width = 2.0 * bounds.radius;
         if !has_knee_size(&bounds) {
@@ -128,6 +138,24 @@ mod tests {
             remarks.len() == 1 && remarks[0].contains("2 bodies that do not touch"),
             "{remarks:?}"
         );
+    }
+
+    #[test]
+    fn a_round_part_is_said_to_be_round_and_a_box_is_not() {
+        const SIDES: u32 = 48;
+        let mut vertices = vec![0.0, 60.0, 0.0, 0.0, 0.0, 0.0];
+        let mut triangles = vec![];
+        for side in 0..SIDES {
+            let (sine, cosine) = libm::sincosf(side as f32 / SIDES as f32 * core::f32::consts::TAU);
+            vertices.extend([20.0 * cosine, 0.0, 20.0 * sine]);
+            let [one, next] = [side, side + 1].map(|side| 2 + side % SIDES);
+            triangles.extend([0, next, one, 1, one, next]);
+        }
+        let cone = OwnedModel::new(vertices, triangles).expect("a cone");
+        let is_round =
+            |owned: &OwnedModel| owned.remarks().iter().any(|said| said.contains("is round"));
+        assert!(is_round(&cone) && cone.as_model().revolution().is_some());
+        assert!(!is_round(&box_of(60.0)));
     }
 
     /// A box of twelve triangles beside two rings of many.

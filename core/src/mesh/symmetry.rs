@@ -9,10 +9,13 @@
 
 mod fit;
 mod nearest;
+mod round;
 mod sample;
 #[cfg(test)]
 mod tests;
 mod triangle;
+
+pub use round::revolution;
 
 use heapless::Vec;
 

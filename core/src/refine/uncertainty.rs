@@ -56,7 +56,8 @@ pub struct Assessment {
     ///
     /// It knows of random errors that vary along the outline and, on grey frames, of what is not known of the film
     /// ([`super::ImageTarget::film`]). What else shifts the whole outline alike (a trace that is everywhere too wide, a wrong
-    /// calibration) leaves no residual and is not in it.
+    /// calibration) leaves no residual and is not in it. Of a model that is known to be round the turn about its axis has the deviation of an angle of
+    /// which nothing is known.
     /// `None` where the outline does not determine the pose.
     pub covariance: Option<PoseCovariance>,
     /// How the pose would move (turn in radians, shift in mm, camera axes) with one standard deviation of each of two
@@ -91,7 +92,13 @@ pub fn assess(
     })?;
     let covariance = sums.covariance();
     Ok(Assessment {
-        covariance: covariance.map(|covariance| bias.widen(covariance, sums.errors())),
+        covariance: covariance.map(|covariance| {
+            let widened = bias.widen(covariance, sums.errors());
+            let round = model.revolution();
+            round.map_or(widened, |round| {
+                round.widen(widened, &refined.pose, &model.centre())
+            })
+        }),
         film_steps: bias.film_steps(),
         fit,
     })

@@ -146,7 +146,13 @@ fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_lea
         (0..6).for_each(|k| information[k][k] = 1e6);
         one.covariance = crate::pose::covariance::PoseCovariance::from_information(&information);
     };
+    let open_by_a_turn = |one: &mut Candidate| {
+        let mut matrix = [[0.0; 6]; 6];
+        matrix[1][1] = radians(OTHER_DEG + 0.1) * radians(OTHER_DEG + 0.1);
+        one.covariance = Some(PoseCovariance { matrix });
+    };
     assert_eq!(judged(|_| {}, None), Some((-1.0, false)));
+    assert_eq!(judged(open_by_a_turn, None), Some((-1.0, false)));
     assert_eq!(judged(known, None), Some((0.0, false)));
     assert_eq!(judged(|one| one.refined = None, None), Some((0.0, false)));
     assert_eq!(judged(known, Some(1)), Some((9.0, true)));

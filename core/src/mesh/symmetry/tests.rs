@@ -172,6 +172,33 @@ properties! {
         prop_assert!(planes.iter().all(|p| p.deviation_mm < 0.2), "{:?}", planes);
     }
 
+    /// Wherever it is, and however coarse it is; a ball about any axis, and what has a peg or is only many-sided about none.
+    #[test]
+    fn a_body_of_revolution_is_round_about_its_axis(pose in placed_within(400.0)) {
+        let round = |body: Body| {
+            let body = body.moved(&pose);
+            revolution(&Mesh::new(&body.vertices, &body.triangles).expect("a valid body"))
+        };
+        let egg = round(star(|_, y, _| 30.0 - 12.0 * y * y)).expect("round");
+        let axis = crate::math::apply(&pose.rotation, &[0.0, 1.0, 0.0]);
+        prop_assert!(!egg.is_ball && egg.directions().len() == 1);
+        prop_assert!(dot(&egg.directions()[0], &axis).abs() > 0.9999);
+        let off = subtract(&egg.point, &pose.translation);
+        prop_assert!(norm(&subtract(&off, &scale(&axis, dot(&off, &axis)))) < 0.1);
+        prop_assert!(round(star(|_, _, _| 30.0)).is_some_and(|ball| ball.is_ball && ball.directions().len() == 3));
+        let flower = |petals: f64| star(move |x, y, z| {
+            30.0 - 12.0 * y * y + 2.0 * (1.0 - y * y) * libm::cos(petals * libm::atan2(z, x))
+        });
+        for petals in [1.0, 2.0, 3.0, 6.0, 9.0] {
+            prop_assert_eq!(round(flower(petals)), None, "{}", petals);
+        }
+        let peg = cuboid([12.0, -30.0, -3.0], [18.0, -8.0, 3.0]);
+        prop_assert_eq!(round(star(|_, y, _| 30.0 - 12.0 * y * y).joined(peg)), None);
+        for body in [tray(), lopsided(), cuboid([-20.0; 3], [20.0; 3])] {
+            prop_assert_eq!(round(body), None);
+        }
+    }
+
     #[test]
     fn a_tray_has_its_mediolateral_plane_alone(pose in placed_within(400.0)) {
         let planes = tray().moved(&pose).planes();
