@@ -54,7 +54,8 @@ pub const TILT_MARGIN_DEG: f64 = 2.0;
 /// off. A judgement.
 pub const KNEE_DEG: f64 = 50.0;
 
-/// The neighbouring frames decide nothing between poses whose rotations from them differ by less than this, degrees.
+/// The neighbouring frames decide nothing between poses whose rotations from them differ by less than this, degrees, nor where any other pose is less
+/// than twice as far from them: of single pictures one is always the nearest.
 pub const TURN_MARGIN_DEG: f64 = 2.0;
 
 /// Poses of a frame that are compared: those with the least residuals.
@@ -267,7 +268,8 @@ pub fn choose(candidates: &[RivalPose], context: &ChoiceContext<'_>) -> Option<C
     let beside = context.counterpart.as_ref();
     let mut contenders = Contenders::of(candidates, beside, context.is_counterpart_doubtful);
     let turn = |pose: &Pose| mean_turn_deg(pose, context.neighbours);
-    if let Some((chosen_deg, other_deg)) = contenders.narrow(&turn, TURN_MARGIN_DEG) {
+    let margin = |least_deg: f64| least_deg.max(TURN_MARGIN_DEG);
+    if let Some((chosen_deg, other_deg)) = contenders.narrow(&turn, margin) {
         contenders.reason = Some(Reason::Turn {
             chosen_deg,
             other_deg,
@@ -319,7 +321,7 @@ impl<'a> Contenders<'a> {
             Some(known) if known.no_knee_deg(pose).is_none() => known.tilt_deg(pose),
             _ => f64::NAN,
         };
-        if let Some((chosen_deg, other_deg)) = contenders.narrow(&tilt, TILT_MARGIN_DEG) {
+        if let Some((chosen_deg, other_deg)) = contenders.narrow(&tilt, |_| TILT_MARGIN_DEG) {
             contenders.reason = Some(Reason::Tilt {
                 chosen_deg,
                 other_deg,
@@ -412,9 +414,13 @@ impl<'a> Contenders<'a> {
         self.open = first_of(possible().copied());
     }
 
-    /// Rules out those whose angle is larger in magnitude than the smallest by `margin`. If there
+    /// Rules out those whose angle is larger in magnitude than the smallest by the `margin` for that. If there
     /// are any, the angles of the first that is left and of the best of those.
-    fn narrow(&mut self, angle: &dyn Fn(&Pose) -> f64, margin: f64) -> Option<(f64, f64)> {
+    fn narrow(
+        &mut self,
+        angle: &dyn Fn(&Pose) -> f64,
+        margin: impl Fn(f64) -> f64,
+    ) -> Option<(f64, f64)> {
         let angle = |index: usize| {
             let pose = self.candidates.get(index).map(|candidate| &candidate.pose);
             pose.map_or(f64::NAN, angle)
@@ -424,6 +430,7 @@ impl<'a> Contenders<'a> {
         if !least.is_finite() {
             return None;
         }
+        let margin = margin(least.abs());
         let near = |k: usize| angle(k).abs() - least.abs() < margin;
         let far = self.open.iter().filter(|&&k| !near(k));
         let other = far.map(|&k| angle(k)).min_by(smaller)?;
