@@ -7,6 +7,9 @@ use alloc::vec::Vec;
 use super::owned::OwnedModel;
 use super::unit::{SuspectedUnit, has_knee_size, suspected_unit};
 
+/// A splinter this part of the model's radius beside all else makes its box a third longer, and moves the middle by a quarter of the radius. A judgement.
+const FAR: f64 = 0.5;
+
 impl OwnedModel {
     /// What a person should know of the model: what is unusual of its surface and what was done about it, and a size that
     /// is no knee component's in millimetres. Sentences without their full stops; none of a closed surface of usual size.
@@ -44,6 +47,12 @@ impl OwnedModel {
         if bodies > 1 {
             remarks.push(format!(
                 "the file holds {bodies} bodies that do not touch, and all count as this one component: if another component is among them, give each a file of its own"
+            ));
+        }
+        let beyond_mm = self.splinters_beyond_mm();
+        if beyond_mm > FAR * self.as_model().bounds().radius {
+            remarks.push(format!(
+                "a splinter of the surface lies {beyond_mm:.0} mm beside the rest: take it out of the file, or poses are looked for about a middle that is not the part's"
             ));
         }
         if let Some(round) = self.as_model().revolution() {
@@ -138,6 +147,26 @@ mod tests {
             remarks.len() == 1 && remarks[0].contains("2 bodies that do not touch"),
             "{remarks:?}"
         );
+    }
+
+    #[test]
+    fn a_splinter_far_beside_is_said_and_one_in_the_box_is_not() {
+        let with_splinter = |at: f32| {
+            let (mut vertices, mut triangles) = (vec![], vec![]);
+            add_box([0.0; 3], [60.0, 4.0, 40.0], &mut vertices, &mut triangles);
+            let first = vertices.len() as u32;
+            vertices.extend([[at, 1.0, 1.0], [at + 1.0, 1.0, 1.0], [at, 2.0, 1.0]]);
+            triangles.push([first, first + 1, first + 2]);
+            let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+            OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("a box")
+        };
+        let said = |at: f32| {
+            let remarks = with_splinter(at).remarks();
+            remarks.iter().any(|said| said.contains("beside the rest"))
+        };
+        assert_eq!(with_splinter(30.0).splinters_beyond_mm(), 0.0);
+        assert_eq!(with_splinter(300.0).splinters_beyond_mm(), 241.0);
+        assert!(said(300.0) && said(-200.0) && !said(30.0) && !said(62.0));
     }
 
     #[test]
