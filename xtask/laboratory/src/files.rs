@@ -9,6 +9,7 @@ mod listing;
 mod mask;
 mod model;
 mod name;
+mod outputs;
 mod pose_rows;
 mod poses;
 mod role;
@@ -25,13 +26,14 @@ pub use film::Film;
 pub use fluoropose_decode::name_order;
 pub use found_with::FoundWith;
 pub use frames::{Frames, grey, reduced, stated_frames_per_s};
-pub use listing::{files_in, gaps_in};
+pub use listing::{files_in, gaps_in, is_of_system};
 pub use mask::read_mask;
 pub use model::{
     Unit, other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,
 };
 pub use name::check_file_name;
+pub use outputs::check_outputs;
 pub use pose_rows::{PoseRows, read_poses_of};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;

@@ -69,10 +69,15 @@ impl FromStr for Range {
         if !(step > 0.0 && (0.0..4096.0).contains(&steps)) {
             bail!("'{text}': the step must be positive and lead from first to last");
         }
+        ensure!(
+            (steps - steps.round()).abs() < 1e-6,
+            "'{text}': steps of {step} lead from {first} to {}, not to {last}",
+            first + steps.floor() * step
+        );
         Ok(Self(ViewAxis {
             first,
             step,
-            count: (steps + 1e-9) as usize + 1,
+            count: steps.round() as usize + 1,
         }))
     }
 }
@@ -104,6 +109,15 @@ pub fn above_0(text: &str) -> Result<f64> {
     let number = text.parse().ok();
     let number = number.filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.with_context(|| format!("'{text}' is no number above 0"))
+}
+
+/// Reads how many there are to be, at least one.
+///
+/// # Errors
+/// Says what it has to be.
+pub fn at_least_1(text: &str) -> Result<usize> {
+    let number = text.parse().ok().filter(|&number: &usize| number > 0);
+    number.with_context(|| format!("'{text}' is no whole number above 0"))
 }
 
 /// Reads the path of a study file, or of the folder that holds it as `study.toml`.
@@ -161,6 +175,28 @@ impl FromStr for Seeds {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ranges_end_where_they_are_said_to_end() {
+        let count = |text: &str| text.parse::<Range>().map(|Range(axis)| axis.count).ok();
+        assert_eq!(count("-15:15:1"), Some(31));
+        assert_eq!(count("-1:1:0.1"), Some(21));
+        assert_eq!(count("0:1:0.333333333333333"), Some(4));
+        assert_eq!(count("7:7:1"), Some(1));
+        for wrong in ["1:-1:1", "0:1:0", "0:1:nan", "0:9000:1", "0:1", "a:1:1"] {
+            assert_eq!(count(wrong), None, "{wrong}");
+        }
+        let told = "-4:4:3".parse::<Range>().unwrap_err().to_string();
+        assert!(told.contains("from -4 to 2, not to 4"), "{told}");
+    }
+
+    #[test]
+    fn counts_are_whole_and_above_0() {
+        assert_eq!(at_least_1("12").ok(), Some(12));
+        for wrong in ["0", "-1", "1.5", ""] {
+            assert!(at_least_1(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn rates_are_above_0() {

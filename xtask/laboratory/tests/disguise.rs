@@ -260,3 +260,56 @@ fn a_seed_writes_the_same_bytes_again_and_its_file_states_it() {
         }
     }
 }
+
+/// Why a disguise is not written; nothing where it is.
+fn refused(study: &Path, plan: &Plan, out: &Path) -> String {
+    let refused = disguise(study, plan, out).err();
+    refused.map_or_else(String::new, |error| format!("{error:#}"))
+}
+
+#[test]
+fn a_disguise_has_a_folder_of_its_own() {
+    let small = Small::new("disguise-own");
+    let (study, out) = (small.study(), small.0.join("out"));
+    let refused = |plan: &Plan, out: &Path| refused(&study, plan, out);
+    // It would read what it has just written, and the study would be lost.
+    assert!(refused(&plan(1), &small.0).contains("the study itself"));
+    assert_eq!(fs::read_to_string(&study).unwrap(), STUDY);
+    assert_eq!(refused(&plan(1), &out), "");
+    assert_eq!(refused(&plan(1), &out), "", "the same again");
+    let mut other = plan(1);
+    other.frames.prefix = "other".to_owned();
+    let said = refused(&other, &out);
+    assert!(said.contains("among the new film's frames"), "{said}");
+    fs::remove_file(out.join("disguise.toml")).unwrap();
+    assert!(refused(&plan(1), &out).contains("that others made"));
+    other.frames.prefix = "../frame".to_owned();
+    assert!(refused(&other, &small.0.join("escaped")).contains("no name for a file"));
+    other.frames.prefix = String::new();
+    other.models.only = Some("fibula".to_owned());
+    let said = refused(&other, &small.0.join("only"));
+    assert!(
+        said.ends_with("no component fibula: it has femur, tibia"),
+        "{said}"
+    );
+}
+
+#[test]
+fn names_in_all_letters_are_read_back() {
+    let small = Small::new("disguise-names");
+    // A letter of two, as one system writes it, and a mark for writing from the right.
+    let (name, study) = ("fe\u{301}mur\u{200f}", small.0.join("named.toml"));
+    let text = STUDY.replace("'small'", &format!("'{name}'"));
+    let text = text.replace(
+        "name = 'femur'",
+        &format!("name = '{name}'\nrole = 'femur'"),
+    );
+    fs::write(&study, text).unwrap();
+    let out = small.0.join("out");
+    disguise(&study, &plan(1), &out).unwrap();
+    let read = Study::read_quietly(&out.join("study.toml")).unwrap();
+    assert_eq!(
+        (&*read.name, &*read.components[0].name),
+        (&*format!("{name} 1"), name)
+    );
+}

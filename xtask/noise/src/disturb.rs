@@ -32,7 +32,8 @@ pub struct DisturbanceOptions {
         long,
         value_name = "PX",
         default_value_t = 10.0,
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        requires = "jitter"
     )]
     pub correlation: f64,
     /// Hide this part of the outline's length behind a random occluder, 0 to 0.9
@@ -44,7 +45,7 @@ pub struct DisturbanceOptions {
     )]
     pub occlude: f64,
     /// Do not tell which pixels the occluder hides
-    #[arg(long)]
+    #[arg(long, requires = "occlude")]
     pub unmarked: bool,
     /// Seed of jitter and occluders
     #[arg(long, value_name = "SEED", default_value_t = 1)]

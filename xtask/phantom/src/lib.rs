@@ -8,6 +8,7 @@ pub mod implant;
 
 pub mod film;
 
+pub mod own_folder;
 pub mod picture;
 pub mod stl;
 pub mod whole;

@@ -4,6 +4,7 @@ use crate::film::activity::{Activity, Course};
 use crate::film::motion::{self, Position};
 use crate::film::{self, Motion, Physics, Placed, Scene};
 use crate::implant::{self, Parameters, Side, Size, Triangles};
+use crate::own_folder::{check_files, check_study};
 use crate::picture::{write_grey, write_mask};
 use crate::stl;
 use crate::whole;
@@ -20,6 +21,8 @@ use std::path::Path;
 /// Focus to detector, and the detector's side, mm.
 const PRINCIPAL_DISTANCE: f64 = 1200.0;
 const DETECTOR: f64 = 1024.0 * 0.373;
+/// What the study files of sequences begin with.
+const SYNTHETIC: &str = "# Synthetic:";
 /// What the demonstration is called.
 const NAME: &str = "deep-knee-bend";
 
@@ -158,18 +161,20 @@ struct Files {
     tibia: &'static str,
 }
 
-/// Writes the sequence into a folder.
+/// Writes the sequence into a folder of its own.
 ///
 /// # Errors
-/// When no frame or more than 9999 are asked for, or a file cannot be written.
+/// When no frame or more than 9999 are asked for, the folder holds another study or frames of a longer film, or a file cannot be written.
 pub fn write(options: &Options, out: &Path) -> Result<()> {
     ensure!(
         (1..=9999).contains(&options.frames),
         "ask for 1 to 9999 frames, not {}",
         options.frames
     );
+    check_study(out, |text| text.starts_with(SYNTHETIC))?;
     for folder in ["frames", "masks/femur", "masks/tibia"] {
         let folder = out.join(folder);
+        check_files(&folder, |name| is_passed_by(name, options.frames))?;
         fs::create_dir_all(&folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
@@ -222,6 +227,11 @@ fn write_frame(
         write_mask(&path, &Mask::new(&words, side, side)?)?;
     }
     Ok(())
+}
+
+/// Whether a file in a folder of frames is one of so many, or none that could be taken for one.
+fn is_passed_by(name: &str, frames: usize) -> bool {
+    !name.ends_with(".png") || (0..frames).any(|index| frame_name(index) == name)
 }
 
 fn frame_name(index: usize) -> String {
@@ -278,7 +288,7 @@ fn poses(positions: &[Position], of: fn(&Position) -> EulerPose) -> Result<Strin
 fn study(name: &str, side: Side) -> String {
     let what = name.replace('-', " ");
     let mut text = format!(
-        "# Synthetic: a {what}, both components at known poses.\nname = \"{name}\"\nside = \"{side}\"\n\
+        "{SYNTHETIC} a {what}, both components at known poses.\nname = \"{name}\"\nside = \"{side}\"\n\
          calibration = \"calibration.txt\"\nframes = \"frames\"\n"
     );
     for component in ["femur", "tibia"] {
@@ -288,4 +298,30 @@ fn study(name: &str, side: Side) -> String {
         );
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shorter_film_is_not_written_among_the_frames_of_a_longer_one() {
+        let name = format!("fluoropose-shorter-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let of = |frames| Options {
+            frames,
+            pixels: 64,
+            implants: Implants::built_in(Side::Left, 0.5).ok(),
+            ..Options::default()
+        };
+        write(&of(2), &folder).unwrap();
+        write(&of(2), &folder).unwrap();
+        let refused = write(&of(1), &folder).unwrap_err().to_string();
+        assert!(refused.contains("holds 0002.png"), "{refused}");
+        write(&of(3), &folder).unwrap();
+        fs::write(folder.join("study.toml"), "name = \"of a patient\"").unwrap();
+        let refused = write(&of(3), &folder).unwrap_err().to_string();
+        assert!(refused.contains("that others made"), "{refused}");
+        fs::remove_dir_all(folder).unwrap();
+    }
 }

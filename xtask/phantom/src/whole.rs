@@ -31,6 +31,28 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     }
 }
 
+/// Whether [`write()`] could do so now: who works for hours before it asks first. Nothing is left there.
+///
+/// # Errors
+/// Those of [`write()`], as far as there is room.
+pub fn check(path: &Path) -> Result<()> {
+    let cannot = || format!("cannot write {}", path.display());
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let refused = |kind: io::ErrorKind| Err(io::Error::from(kind)).with_context(cannot);
+    match fs::symlink_metadata(&place) {
+        Ok(there) if there.is_dir() => refused(io::ErrorKind::IsADirectory),
+        Ok(there) if there.is_file() && there.permissions().readonly() => {
+            refused(io::ErrorKind::PermissionDenied)
+        }
+        // A pipe or a terminal; a link that leads nowhere yet, of which the system tells then.
+        Ok(there) if !there.is_file() => Ok(()),
+        _ => {
+            let beside = Beside::of(&place);
+            File::create_new(&beside.0).map(drop).with_context(cannot)
+        }
+    }
+}
+
 fn put(place: &Path, bytes: &[u8], permissions: Option<fs::Permissions>) -> io::Result<()> {
     let beside = Beside::of(place);
     let mut file = File::create_new(&beside.0)?;
@@ -162,6 +184,24 @@ mod tests {
         assert!(write(&path, "new").is_err());
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(folder.names(), ["kept"]);
+    }
+
+    #[test]
+    fn what_could_not_be_written_is_told_before_and_nothing_is_left() {
+        let folder = Folder::new("before");
+        let path = folder.0.join("a");
+        check(&path).unwrap();
+        fs::write(&path, "old").unwrap();
+        check(&path).unwrap();
+        assert!(check(&folder.0.join("no/a")).is_err());
+        assert!(check(&path.join("b")).is_err());
+        assert!(check(&folder.0).is_err());
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        assert!(check(&path).is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(folder.names(), ["a"]);
     }
 
     #[cfg(unix)]

@@ -31,7 +31,8 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files.into_iter().map(|(_, path)| path).collect())
 }
 
-fn is_of_system(name: &str) -> bool {
+/// Whether a file has a name that systems give: it is no frame.
+pub fn is_of_system(name: &str) -> bool {
     name.starts_with('.') || OF_SYSTEMS.contains(&name.to_lowercase().as_str())
 }
 

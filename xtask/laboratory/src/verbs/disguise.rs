@@ -8,6 +8,7 @@ mod marks;
 mod mesh;
 mod picture;
 mod plan;
+mod possible;
 mod words;
 mod write;
 
@@ -15,8 +16,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use crate::files::{Film, Study, read_text, write_json};
-use crate::options::{Seeds, study_files};
+use crate::files::{Film, Study, check_outputs, read_text, write_json};
+use crate::options::{Seeds, at_least_1, study_files};
 use crate::verbs::compare::COLUMNS;
 use crate::verbs::measured_film::{HEADING, Words, follow};
 
@@ -51,7 +52,7 @@ pub struct Args {
     #[arg(long, value_name = "COMPONENT")]
     only: Option<String>,
     /// At most so many frames
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = at_least_1)]
     frames: Option<usize>,
     /// Follow each film, and compare it with its truth
     #[arg(long)]
@@ -69,6 +70,12 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
+    check_outputs(
+        &[("--json", args.json.as_deref())],
+        [Some(&*args.study), args.stated.as_deref()],
+    )?;
+    // What it says of its keys is said once, however many seeds there are.
+    Study::read(&args.study)?;
     let mut rows = Vec::new();
     if args.track {
         println!("{HEADING}");

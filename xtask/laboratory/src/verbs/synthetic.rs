@@ -18,16 +18,59 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Model;
 
-use crate::files::{camera_for, read_calibration, read_model, write_json};
+use crate::files::{camera_for, check_outputs, read_calibration, read_model, write_json};
 use crate::finding::{Method, ViewOptions};
 use crate::noise::DisturbanceOptions;
-use crate::options::Pair;
+use crate::options::{Pair, at_least_1};
 use ranges::FAILURE_DEG;
 
 pub use anywhere::{Anywhere, Places, measure_anywhere};
 pub use films::{FilmKind, FilmRow, FilmWay, Films, JointBands, measure_films};
 pub use protocol::{Accuracy, Protocol, StartOff, Variant, measure, measure_as};
 pub use refusal::{Kind, Refusal, measure_refusal};
+
+// What stands with --films, --activity, --any-view or --refusal alone requires the group of that option, of which it is the only one: of an option
+// that is missing and in conflict with another one on the line the command line's parser says nothing.
+
+/// Options of the protocol, which films have no use for.
+const OF_THE_PROTOCOL: [&str; 20] = [
+    "model",
+    "calibration",
+    "frame",
+    "poses",
+    "method",
+    "start_off",
+    "biplane",
+    "any_view",
+    "refusal",
+    "nominal",
+    "x",
+    "y",
+    "distance",
+    "area",
+    "size",
+    "jitter",
+    "correlation",
+    "occlude",
+    "unmarked",
+    "noise_seed",
+];
+/// Those of it that poses from anywhere have none for: all directions, one method, outlines of their own.
+const OF_THE_LIBRARY: [&str; 13] = [
+    "biplane",
+    "start_off",
+    "method",
+    "nominal",
+    "x",
+    "y",
+    "area",
+    "size",
+    "jitter",
+    "correlation",
+    "occlude",
+    "unmarked",
+    "noise_seed",
+];
 
 /// Options of `synthetic`.
 #[derive(clap::Args)]
@@ -63,7 +106,7 @@ pub struct Args {
     #[arg(long, value_name = "W,H", default_value = "1024,1024")]
     frame: Pair,
     /// Number of poses
-    #[arg(long, default_value_t = 150)]
+    #[arg(long, default_value_t = 150, value_parser = at_least_1)]
     poses: usize,
     /// Seed of the random poses
     #[arg(long, default_value_t = 1)]
@@ -80,16 +123,16 @@ pub struct Args {
     biplane: Option<f64>,
     /// Poses of any rotation, found by a library of all directions, method refined: how often the part is found at its
     /// place in the camera's frame
-    #[arg(long, conflicts_with_all = ["biplane", "start_off", "refusal"])]
+    #[arg(long, group = "anywhere", conflicts_with = "refusal", conflicts_with_all = OF_THE_LIBRARY)]
     any_view: bool,
     /// With --any-view: the model's axes are turned at random too
-    #[arg(long, requires = "any_view")]
+    #[arg(long, requires = "anywhere")]
     any_axes: bool,
     /// What is called good, doubtful and no fit: outlines of the model by a hand, and outlines that are none of its views
-    #[arg(long, conflicts_with_all = ["biplane", "start_off"])]
+    #[arg(long, group = "refused", conflicts_with_all = OF_THE_LIBRARY)]
     refusal: bool,
     /// With --refusal: a model whose outlines are not the model's, the other component's or another implant's
-    #[arg(long, value_name = "FILE", requires = "refusal")]
+    #[arg(long, value_name = "FILE", requires = "refused")]
     other: Vec<PathBuf>,
     #[command(flatten)]
     films: films::FilmArgs,
@@ -111,6 +154,12 @@ pub struct Args {
 /// # Errors
 /// For files that cannot be read and views that cannot be rendered.
 pub fn run(args: Args) -> Result<()> {
+    let models = [&args.model, &args.calibration, &args.activity.implants];
+    let models = models.map(Option::as_deref).into_iter();
+    check_outputs(
+        &[("--json", args.json.as_deref())],
+        models.chain(args.other.iter().map(|path| Some(&**path))),
+    )?;
     if args.films.films {
         return films::run(&args.films, args.seed, args.json.as_deref());
     }
@@ -223,4 +272,83 @@ fn print(accuracy: &Accuracy) {
         println!("in their 95 %, by number: x, y, z, rot. z, x, y {wide} %");
     }
     accuracy.limits.print(&accuracy.rms, &accuracy.median);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_be_left_out_is_refused() {
+        #[derive(clap::Parser)]
+        struct Verb {
+            #[command(flatten)]
+            args: Args,
+        }
+        let parsed = |words: &str| {
+            let words = ["synthetic"].into_iter().chain(words.split_whitespace());
+            <Verb as clap::Parser>::try_parse_from(words).map(|verb| verb.args)
+        };
+        let protocol = "--model a.stl --calibration b.txt";
+        let around = format!("{protocol} --any-view --any-axes --poses 20 --distance 900");
+        let activity = "--activity gait --out x --frames 3 --side right --cement --second-leg";
+        let hand = format!("{protocol} --jitter 1 --correlation 5 --occlude 0.2 --unmarked");
+        for right in [
+            &around,
+            &hand,
+            activity,
+            "--films --count 3 --only cement --way click --seed 4",
+            &format!("{protocol} --refusal --other a.stl"),
+            &format!("{protocol} --method refined --x=-3:3:1"),
+        ] {
+            assert!(parsed(right).is_ok(), "{right}");
+        }
+        let with = |what: &str, all: &[&str]| {
+            for more in all {
+                assert!(parsed(&format!("{what} {more}")).is_err(), "{what} {more}");
+            }
+        };
+        let of_films = [
+            "--count 3",
+            "--only cement",
+            "--way click",
+            "--any-axes",
+            "--other c.stl",
+        ];
+        with(&format!("{protocol} --x=-3:3:1"), &of_films);
+        with(
+            protocol,
+            &[
+                "--frames 3",
+                "--implants s",
+                "--stretch 1,1,1",
+                "--blur 1",
+                "--out x",
+            ],
+        );
+        with(protocol, &["--poses 0", "--unmarked", "--correlation 3"]);
+        with(
+            &around,
+            &["--method image", "--x=-3:3:1", "--jitter 1", "--refusal"],
+        );
+        with(
+            activity,
+            &[
+                "--model a.stl",
+                "--poses 3",
+                "--json a.json",
+                "--jitter 1",
+                "--films",
+            ],
+        );
+        with(
+            "--films",
+            &[
+                "--model a.stl",
+                "--poses 3",
+                "--frames 3",
+                "--display linear",
+            ],
+        );
+    }
 }

@@ -1,5 +1,6 @@
 //! A disguised copy of a study, with its truth.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -11,6 +12,7 @@ use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_decode::GreyFrame;
 use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::own_folder::{check_files, check_source, check_study};
 use fluoropose_phantom::picture::write_mask;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -21,13 +23,15 @@ use super::mesh;
 use super::picture::Picture;
 use super::plan::{Frames, Plan};
 use crate::files::{
-    Component, Film, MaskBuffer, Study, grey, read_calibration, read_model, read_poses_of,
-    write_poses, write_text,
+    Component, Film, MaskBuffer, Study, grey, is_of_system, read_calibration, read_model,
+    read_poses_of, write_poses, write_text,
 };
 use crate::measure::accuracy::in_front;
 
 /// Streams of random numbers that no frame's noise has.
 const MODELS: u64 = 1 << 63;
+/// The file that states the disguise.
+const STATED: &str = "disguise.toml";
 /// Every so many pixels of a frame tell where a steep curve ends.
 const SAMPLED: usize = 97;
 
@@ -42,6 +46,9 @@ pub fn disguise(file: &Path, plan: &Plan, out: &Path) -> Result<Lens> {
     let film = Film::read(folder)?;
     let chosen = plan.frames.chosen(film.count());
     ensure!(!chosen.is_empty(), "no frame is left of {}", film.count());
+    plan.check()?;
+    check_only(&study, plan)?;
+    check_out(file, &study, plan, chosen.len(), out)?;
     let known: Vec<Known<'_>> = study
         .components
         .iter()
@@ -71,9 +78,42 @@ pub fn disguise(file: &Path, plan: &Plan, out: &Path) -> Result<Lens> {
             .is_none_or(|only| *only == known.component.name);
         text += if is_there { &keys } else { "" };
     }
-    write_text(&out.join("disguise.toml"), &toml::to_string(plan)?)?;
+    write_text(&out.join(STATED), &toml::to_string(plan)?)?;
     write_text(&out.join("study.toml"), &text)?;
     Ok(lens)
+}
+
+/// Refuses a plan that leaves none of the study's components.
+fn check_only(study: &Study, plan: &Plan) -> Result<()> {
+    let names = study.components.iter().map(|one| one.name.as_str());
+    let known: Vec<&str> = names.collect();
+    let only = plan.models.only.as_deref();
+    ensure!(
+        only.is_none_or(|only| known.contains(&only)),
+        "the study has no component {}: it has {}",
+        only.unwrap_or_default(),
+        known.join(", ")
+    );
+    Ok(())
+}
+
+/// Refuses a folder in which something of others stands: a disguise is told by the file that states it.
+fn check_out(file: &Path, study: &Study, plan: &Plan, count: usize, out: &Path) -> Result<()> {
+    check_source(file, out)?;
+    check_study(out, |_| out.join(STATED).is_file())?;
+    let names = |ending: &str| -> HashSet<String> {
+        let names = (0..count).map(|place| format!("{}.{ending}", plan.frames.name(place)));
+        names.collect()
+    };
+    let only = |folder: &Path, own: &HashSet<String>| {
+        check_files(folder, |name| own.contains(name) || is_of_system(name))
+    };
+    only(&out.join("frames"), &names(plan.frames.kind.ending()))?;
+    let masks = names("png");
+    let components = study.components.iter();
+    components
+        .map(|one| only(&out.join("masks").join(&one.name), &masks))
+        .collect()
 }
 
 impl Frames {
@@ -88,7 +128,7 @@ impl Frames {
     }
 
     /// The name of a frame, from 0, without its ending.
-    fn name(&self, place: usize) -> String {
+    pub(super) fn name(&self, place: usize) -> String {
         format!(
             "{}{:0digits$}",
             self.prefix,
@@ -98,11 +138,16 @@ impl Frames {
     }
 }
 
+/// Text as the study file has it.
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
 /// The keys of the study; side, where it is known, is that of the picture.
 fn heading(study: &Study, plan: &Plan) -> String {
     let mut text = format!(
-        "# {plan}\nname = {:?}\n",
-        format!("{} {}", study.name, plan.seed)
+        "# {plan}\nname = {}\n",
+        quoted(&format!("{} {}", study.name, plan.seed))
     );
     let side = study.side.map(|side| match (side, plan.view.mirrored) {
         (Side::Left, false) | (Side::Right, true) => "left",
@@ -215,7 +260,11 @@ impl<'s> Known<'s> {
             mirrored,
             random,
         )?;
-        let mut text = format!("[[component]]\nname = {name:?}\nmodel = {model:?}\n");
+        let mut text = format!(
+            "[[component]]\nname = {}\nmodel = {}\n",
+            quoted(name),
+            quoted(&model)
+        );
         if let Some(role) = self.component.role() {
             let _ = writeln!(text, "role = \"{}\"", format!("{role:?}").to_lowercase());
         }
@@ -236,7 +285,9 @@ impl<'s> Known<'s> {
         )?;
         let _ = writeln!(
             text,
-            "reference = \"{name}.jts\"\nmasks.truth = \"masks/{name}\""
+            "reference = {}\nmasks.truth = {}",
+            quoted(&format!("{name}.jts")),
+            quoted(&format!("masks/{name}"))
         );
         Ok(text)
     }

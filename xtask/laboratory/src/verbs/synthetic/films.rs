@@ -10,7 +10,7 @@ mod trial;
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Model;
 use fluoropose_phantom::implant::{self, Parameters, Triangles};
@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use crate::files::{owned, write_json};
 use crate::finding::{ViewOptions, build_library};
+use crate::options::at_least_1;
 use crate::progress::progress;
 use draw::{Film, Number, draw};
 pub use joint::JointBands;
@@ -40,16 +41,16 @@ const PARTS: [&str; 2] = ["femur", "tibia"];
 #[derive(clap::Args)]
 pub(super) struct FilmArgs {
     /// Grey films of the built-in implants, of several kinds: both components from one click, and refined from the truth
-    #[arg(long)]
+    #[arg(long, group = "filmed", conflicts_with_all = super::OF_THE_PROTOCOL)]
     pub(super) films: bool,
     /// With --films: films of each kind
-    #[arg(long, default_value_t = 25)]
+    #[arg(long, default_value_t = 25, value_parser = at_least_1, requires = "filmed")]
     count: usize,
     /// With --films: only kinds whose name holds this
-    #[arg(long, value_name = "WORDS")]
+    #[arg(long, value_name = "WORDS", requires = "filmed")]
     only: Option<String>,
     /// With --films: how poses are come by [default: click, image, alone]
-    #[arg(long, value_enum, value_name = "WAY")]
+    #[arg(long, value_enum, value_name = "WAY", requires = "filmed")]
     way: Vec<FilmWay>,
 }
 
@@ -73,7 +74,13 @@ pub struct Films<'f> {
 pub(super) fn run(args: &FilmArgs, seed: u64, json: Option<&Path>) -> Result<()> {
     let mut kinds = FilmKind::all();
     if let Some(words) = &args.only {
+        let names: Vec<String> = kinds.iter().map(|kind| kind.name.clone()).collect();
         kinds.retain(|kind| kind.name.contains(words));
+        ensure!(
+            !kinds.is_empty(),
+            "no kind of film has a name that holds '{words}': {}",
+            names.join(", ")
+        );
     }
     let what = Films {
         kinds: &kinds,

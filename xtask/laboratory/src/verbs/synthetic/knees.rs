@@ -3,12 +3,13 @@
 use std::fmt;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fluoropose_phantom::film::activity::Activity;
 use fluoropose_phantom::film::{
     Alloys, Cement, Display, Exposure, Field, Physics, Sampling, Unsharp,
 };
 use fluoropose_phantom::implant::Side;
+use fluoropose_phantom::own_folder::check_source;
 use fluoropose_phantom::sequence::{self, Options};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -50,7 +51,8 @@ pub(super) struct KneeArgs {
         group = "drawn",
         requires_all = ["implants", "out"],
         conflicts_with = "films",
-        conflicts_with_all = DRAWN_BY_SEED
+        conflicts_with_all = DRAWN_BY_SEED,
+        conflicts_with_all = super::OF_THE_PROTOCOL
     )]
     pub(super) knees: Option<Seeds>,
     /// With --knees: follow each film from nothing, and compare it with its truth
@@ -68,12 +70,17 @@ pub(super) fn run(
     frames: usize,
     json: Option<&Path>,
 ) -> Result<()> {
+    ensure!(
+        json.is_none() || args.track,
+        "--json writes the rows of --track: ask for it too"
+    );
     let mut rows = Vec::new();
     if args.track {
         println!("{HEADING}");
     }
     let films = args.knees.iter().flat_map(|seeds| seeds.folders(out));
     for (seed, folder) in films {
+        check_source(implants, &folder)?;
         let knee = Knee::drawn(seed);
         knee.write(implants, frames, &folder)?;
         if !args.track {
@@ -237,6 +244,11 @@ mod tests {
             "--blur 1",
             "--cement",
             "--films",
+            "--model a.stl",
+            "--poses 3",
+            "--method image",
+            "--jitter 1",
+            "--count 3",
         ] {
             assert!(parsed(more).is_err(), "{more}");
         }

@@ -9,40 +9,40 @@ use crate::options::Pair;
 #[derive(clap::Args)]
 pub(super) struct PhysicsOptions {
     /// Display: logarithmic, linear or square-root [default: logarithmic]
-    #[arg(long)]
+    #[arg(long, requires = "drawn")]
     display: Option<Display>,
     /// Blur of the detector, standard deviation in pixels [default: 0.6]
-    #[arg(long, value_name = "PX")]
+    #[arg(long, value_name = "PX", requires = "drawn")]
     blur: Option<f64>,
     /// Scattered light as a part of the primary beam [default: 0.055]
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", requires = "drawn")]
     scatter: Option<f64>,
     /// Veiling glare, the same everywhere, as a part of the mean light [default: 0]
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", requires = "drawn")]
     glare: Option<f64>,
     /// Enhance edges by an unsharp mask: how much, and the blur of its copy in pixels
-    #[arg(long, value_name = "AMOUNT,PX")]
+    #[arg(long, value_name = "AMOUNT,PX", requires = "drawn")]
     unsharp: Option<Pair>,
     /// Quanta that a pixel counts, as a multiple of the usual number [default: 1]
-    #[arg(long, value_name = "FACTOR")]
+    #[arg(long, value_name = "FACTOR", requires = "drawn")]
     exposure: Option<f64>,
     /// Attenuation of femoral component and tray, per mm [default: 0.72,0.2]
-    #[arg(long, value_name = "F,T")]
+    #[arg(long, value_name = "F,T", requires = "drawn")]
     opacity: Option<Pair>,
     /// Relative variance of metal's attenuation over the spectrum: how much the beam hardens [default: 0]
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", requires = "drawn")]
     hardening: Option<f64>,
     /// Cement between bone and implants
-    #[arg(long)]
+    #[arg(long, requires = "drawn")]
     cement: bool,
     /// Two bone screws below the tray
-    #[arg(long)]
+    #[arg(long, requires = "drawn")]
     screws: bool,
     /// A ruler on the detector
-    #[arg(long)]
+    #[arg(long, requires = "drawn")]
     ruler: bool,
     /// A flat panel, all of it lit, instead of an image intensifier's round field
-    #[arg(long)]
+    #[arg(long, requires = "drawn")]
     flat_panel: bool,
 }
 
