@@ -53,6 +53,14 @@ impl fmt::Display for Decision {
         }
         // What the library leaves is counted in pixels that differ, and is no distance.
         match self.choice.reason {
+            // Views are located, and their pixels counted, as long as one may be the best.
+            Reason::Residual {
+                chosen_px,
+                other_px: f64::INFINITY,
+            } => write!(
+                f,
+                "{chosen_px} unmatched pixels, those of the other pose not counted"
+            )?,
             Reason::Residual {
                 chosen_px,
                 other_px,
@@ -154,5 +162,45 @@ impl Decision {
             verdict: judge(candidates, &choice, &Limits::USUAL)?,
             choice,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::refine::Fit;
+
+    #[test]
+    fn pixels_that_were_not_counted_are_no_number() {
+        let chosen = Candidate {
+            pose: Pose::IDENTITY,
+            start: Pose::IDENTITY,
+            located: None,
+            refined: None,
+            covariance: None,
+            fit: Fit::default(),
+        };
+        let told = |other_px: f64| {
+            let reason = Reason::Residual {
+                chosen_px: 565.0,
+                other_px,
+            };
+            let choice = Choice {
+                index: 0,
+                reason,
+                open: None,
+                no_knee_deg: None,
+            };
+            let decision = Decision {
+                chosen,
+                rival: None,
+                choice,
+                verdict: Verdict::Good,
+            };
+            decision.to_string()
+        };
+        assert_eq!(told(978.0), "565 unmatched pixels against 978");
+        let alone = "565 unmatched pixels, those of the other pose not counted";
+        assert_eq!(told(f64::INFINITY), alone);
     }
 }

@@ -23,7 +23,15 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
         .map(|path| path.map(|path| (name_of(&path), path)))
         .collect::<Result<_, _>>()
         .with_context(|| format!("cannot list {}", folder.display()))?;
-    files.retain(|(name, path)| path.is_file() && !is_of_system(name));
+    files.retain(|(name, _)| !is_of_system(name));
+    // A frame that is kept elsewhere and was not fetched: without it all rows behind it would be other frames'.
+    if let Some((_, lost)) = files
+        .iter()
+        .find(|(_, path)| path.is_symlink() && !path.exists())
+    {
+        bail!("{} is a link to a file that is not there", lost.display());
+    }
+    files.retain(|(_, path)| path.is_file());
     files.sort_by(|(a, _), (b, _)| name_order(a, b));
     if files.is_empty() {
         bail!("{} holds no files", folder.display());
@@ -60,6 +68,15 @@ mod tests {
             fs::write(folder.join(name), name).unwrap();
         }
         let files = files_in(&folder).unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("nowhere", folder.join("f4.png")).unwrap();
+            let lost = files_in(&folder).unwrap_err().to_string();
+            assert!(
+                lost.ends_with("f4.png is a link to a file that is not there"),
+                "{lost}"
+            );
+        }
         fs::remove_dir_all(&folder).unwrap();
         let names: Vec<String> = files.iter().map(|path| name_of(path)).collect();
         assert_eq!(names, ["f1.png", "f2.png", "f10.png"]);

@@ -339,7 +339,7 @@ impl Study {
     }
 
     fn resolve(&mut self, folder: &Path) -> Result<()> {
-        let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
+        let resolve = |path: &mut PathBuf| *path = found_in(folder, path);
         resolve(&mut self.calibration);
         self.frames.as_mut().map(resolve);
         for component in &mut self.components {
@@ -358,6 +358,15 @@ impl Study {
             }
         }
         Ok(())
+    }
+}
+
+/// Where a path of a study leads: against its folder. One that was written with backslashes on another system leads there too, as in the page.
+fn found_in(folder: &Path, written: &Path) -> PathBuf {
+    let path = folder.join(written);
+    match written.to_str().filter(|text| text.contains('\\')) {
+        Some(text) if !path.exists() => folder.join(text.replace('\\', "/")),
+        _ => path,
     }
 }
 

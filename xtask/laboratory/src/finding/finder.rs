@@ -1,6 +1,6 @@
 //! From what a camera saw to the poses that explain it, by the method asked for.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::nearby::{WIDE_DEG, nearby};
@@ -57,6 +57,25 @@ pub struct EdgeOptions {
     /// can tell that from depth (methods refined and image)
     #[arg(long)]
     pub edge_offset: bool,
+}
+
+impl EdgeOptions {
+    /// Whether a method looks at edges as they are asked for.
+    ///
+    /// # Errors
+    /// Names the option that it has no use for.
+    pub fn check(&self, method: Method) -> Result<()> {
+        ensure!(
+            method == Method::Image || self.shown.stated().is_none(),
+            "--bright-implant and --dark-implant say how grey frames show metal: for --method image, not {}",
+            method.word()
+        );
+        ensure!(
+            method != Method::Library || !self.edge_offset,
+            "--edge-offset is estimated by --method refined and image, not library"
+        );
+        Ok(())
+    }
 }
 
 /// A frame as a target of refinement; what is unknown of the silhouette is unknown there.

@@ -8,7 +8,9 @@ use fluoropose::math::{Vector3, dot, norm, scale, subtract};
 use fluoropose::pose::{Pose, geodesic_deg};
 use serde::Serialize;
 
-use crate::files::{Component, PoseRows, States, Study, read_poses, read_poses_of, write_json};
+use crate::files::{
+    Component, PoseRows, States, Study, check_outputs, read_poses, read_poses_of, write_json,
+};
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::options::study_files;
 
@@ -49,6 +51,9 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
+    check_outputs(&[("--json", args.json.as_deref())], [Some(&*args.study)])?;
+    // What there is to say of its keys is said: a misspelt one leaves its component out.
+    Study::read(&args.study)?;
     let rows = compare(&args.study, &args.poses, args.with.as_deref())?;
     ensure!(
         !rows.is_empty(),

@@ -13,11 +13,13 @@ use std::path::{Path, PathBuf};
 
 use crate::choice::report::{report, write_report};
 use crate::choice::{Reasons, report};
-use crate::files::{Component, Study, read_calibration, read_poses_of, write_json, write_poses};
+use crate::files::{
+    Component, Study, check_outputs, read_calibration, read_poses_of, write_json, write_poses,
+};
 use crate::finding::{EdgeOptions, Method};
 use crate::noise::{DisturbanceOptions, Noise};
 use crate::options::study_files;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use found::{Found, Part, find_parts};
 pub use inside::Inside;
 use mirrored::doubt_parts;
@@ -74,6 +76,13 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
+    args.edges.check(args.method)?;
+    ensure!(
+        args.method == Method::Refined || !args.centred,
+        "--centred is of --method refined, not {}",
+        args.method.word()
+    );
+    check_outputs(&[("--json", args.json.as_deref())], [Some(&*args.study)])?;
     let request = Request {
         source: args.source.as_deref(),
         method: args.method,

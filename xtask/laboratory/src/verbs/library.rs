@@ -8,7 +8,7 @@ use fluoropose::library::Library;
 use fluoropose_phantom::picture::write_grey;
 use fluoropose_phantom::whole;
 
-use crate::files::{camera_for, read_calibration, read_model};
+use crate::files::{camera_for, check_outputs, read_calibration, read_model};
 
 use crate::finding::{ViewOptions, build_library};
 
@@ -49,7 +49,12 @@ pub struct Args {
     #[command(flatten)]
     views: ViewOptions,
     /// What it is for, where not for the page
-    #[arg(long = "for", value_name = "PURPOSE", requires = "flash")]
+    #[arg(
+        long = "for",
+        value_name = "PURPOSE",
+        requires = "flash",
+        conflicts_with_all = ["area", "size", "sheet"]
+    )]
     purpose: Option<Purpose>,
     /// With --for firmware: most bytes of the file, as 256K
     #[arg(long, value_name = "BYTES", requires = "purpose")]
@@ -67,6 +72,14 @@ pub struct Args {
 /// # Errors
 /// For files that cannot be read or written and views that cannot be rendered.
 pub fn run(args: Args) -> Result<u8> {
+    let outputs = [
+        ("--out", Some(&*args.out)),
+        ("--sheet", args.sheet.as_deref()),
+    ];
+    check_outputs(
+        &outputs,
+        [&args.model, &args.calibration].map(|path| Some(&**path)),
+    )?;
     let model = read_model(&args.model)?;
     let calibration = read_calibration(&args.calibration)?;
     let camera = camera_for(&calibration, args.frame)?;

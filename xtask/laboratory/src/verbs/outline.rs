@@ -3,9 +3,10 @@
 mod known;
 mod picture;
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Mask;
@@ -14,7 +15,9 @@ use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use serde::Serialize;
 
-use crate::files::{Component, MaskBuffer, Study, grey, read_calibration, read_poses, write_json};
+use crate::files::{
+    Component, MaskBuffer, Study, check_outputs, grey, read_calibration, read_poses, write_json,
+};
 
 use crate::finding::prompts::Kind;
 
@@ -22,7 +25,7 @@ use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
 
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 
-use crate::options::{Pair, Shown, study_files};
+use crate::options::{Pair, Shown, at_least_1, study_files};
 
 use crate::sequence::{Folders, Source};
 use known::Known;
@@ -55,8 +58,8 @@ pub struct Args {
     /// Only this kind of prompt
     #[arg(long, value_enum)]
     prompt: Option<Kind>,
-    /// Only this frame, from 0
-    #[arg(long)]
+    /// Only this frame, from 1
+    #[arg(long, value_parser = at_least_1)]
     frame: Option<usize>,
     /// Tell every first pose and every answer
     #[arg(long)]
@@ -124,20 +127,27 @@ const RIGHT: (f64, f64) = (4.0, 25.0);
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
+    check_outputs(&[("--json", args.json.as_deref())], [Some(&*args.study)])?;
     let study = Study::read(&args.study)?;
-    let component = study
-        .components
-        .iter()
-        .find(|component| component.name == args.component)
-        .with_context(|| format!("the study has no component {}", args.component))?;
-    let masks = component.masks.get(&args.source);
+    let (component, masks) = asked_for(&study, &args)?;
     let folders = Folders {
-        masks: masks.with_context(|| format!("{} has no masks.{}", args.component, args.source))?,
+        masks,
         unknown: None,
         frames: Some(study.frames_folder()?),
     };
     let calibration = read_calibration(&study.calibration)?;
     let source = Source::read(&folders, &calibration)?;
+    if let Some(frame) = args.frame {
+        let count = source.masks.len();
+        ensure!(
+            frame <= count,
+            "there is no frame {frame}: the study has {count}"
+        );
+    }
+    if let Some(folder) = &args.pictures {
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
     let views = ViewOptions {
         nominal: component.nominal.map(Pair),
         distance: component.distance_mm,
@@ -169,6 +179,30 @@ pub fn run(args: Args) -> Result<()> {
     write_json(args.json.as_deref(), &rows)
 }
 
+/// The component, and the folder of its masks.
+fn asked_for<'s>(study: &'s Study, args: &Args) -> Result<(&'s Component, &'s Path)> {
+    let (name, source) = (&args.component, &args.source);
+    let component = study.components.iter().find(|one| one.name == *name);
+    let component = component.with_context(|| {
+        let names = study.components.iter().map(|one| one.name.as_str());
+        let names: Vec<&str> = names.collect();
+        format!(
+            "the study has no component {name}: it has {}",
+            names.join(", ")
+        )
+    })?;
+    let masks = component.masks.get(source).with_context(|| {
+        let sources: Vec<&str> = component.masks.keys().map(String::as_str).collect();
+        let sources = if sources.is_empty() {
+            "none"
+        } else {
+            &sources.join(", ")
+        };
+        format!("{name} has no masks.{source} (--source): those of it are {sources}")
+    })?;
+    Ok((component, masks))
+}
+
 fn references(component: &Component) -> Result<Vec<Option<Pose>>> {
     let Some(path) = &component.reference else {
         return Ok(Vec::new());
@@ -189,7 +223,7 @@ impl Trial<'_> {
     fn row(&mut self, kind: Kind) -> Result<Row> {
         let all = 0..self.source.masks.len();
         let frames: Vec<usize> = match self.args.frame {
-            Some(frame) => all.skip(frame).take(1).collect(),
+            Some(frame) => all.skip(frame - 1).take(1).collect(),
             None => all.collect(),
         };
         let mut outcomes = Vec::new();
@@ -250,13 +284,13 @@ impl Trial<'_> {
         {
             Ok(clicked) => clicked,
             Err(error) => {
-                eprintln!("frame {frame}, {}: {error}", kind.word());
+                eprintln!("frame {}, {}: {error}", frame + 1, kind.word());
                 return Ok(None);
             }
         };
         if self.args.verbose {
             self.tell(
-                &format!("frame {frame} {} {prompt:?}", kind.word()),
+                &format!("frame {} {} {prompt:?}", frame + 1, kind.word()),
                 &clicked,
                 &mask,
                 reference.as_ref(),
@@ -269,7 +303,7 @@ impl Trial<'_> {
         let best = &chosen.pose;
         let drawn = draw(&self.mesh, &self.source.camera, best)?;
         if let Some(folder) = &self.args.pictures {
-            let name = format!("{}-{frame:03}-{kind:?}.png", self.args.component);
+            let name = format!("{}-{:03}-{kind:?}.png", self.args.component, frame + 1);
             picture::write(&folder.join(name), &*grey, &mask, &drawn.mask(), &prompt)?;
         }
         let planes = self.clicker.planes();

@@ -18,8 +18,8 @@ use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report
 use crate::choice::{Decision, Posed, Posing, Reasons};
 
 use crate::files::{
-    Role, name_of, read, read_calibration, read_model_and_remarks_of, shape_doubt, size_taken,
-    write_poses,
+    Role, check_outputs, name_of, read, read_calibration, read_model_and_remarks_of, shape_doubt,
+    size_taken, write_poses,
 };
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
@@ -96,10 +96,7 @@ pub struct Args {
 /// For files that cannot be read or do not belong together, and a model that the library was not made from.
 pub fn run(args: Args) -> Result<u8> {
     args.disturbance.check()?;
-    args.report.as_deref().map_or(Ok(()), check_path)?;
-    if args.method == Method::Image && args.frames.is_none() {
-        bail!("--method image needs the grey frames: name their folder with --frames");
-    }
+    check_options(&args)?;
     let bytes = read(&args.library)?;
     let (model, remarks) = model_and_remarks(&args)?;
     let mesh = model.as_model();
@@ -152,6 +149,27 @@ pub fn run(args: Args) -> Result<u8> {
         eprintln!("{missing} of {} masks have no pose", rows.len());
     }
     Ok(if is_good { 0 } else { exit::DOUBTFUL })
+}
+
+/// Whether what was asked for goes together, and can be written.
+fn check_options(args: &Args) -> Result<()> {
+    args.report.as_deref().map_or(Ok(()), check_path)?;
+    args.edges.check(args.method)?;
+    match (args.method, &args.frames) {
+        (Method::Image, None) => {
+            bail!("--method image needs the grey frames: name their folder with --frames")
+        }
+        (Method::Image, _) | (_, None) => {}
+        (_, Some(_)) => bail!("--frames are looked at by --method image alone: ask for it"),
+    }
+    let outputs = [
+        ("--out", Some(&*args.out)),
+        ("--report", args.report.as_deref()),
+    ];
+    let read = [&args.library, &args.model, &args.calibration];
+    let read = read.map(|path| Some(&**path)).into_iter();
+    let of_other = [&args.counterpart, &args.counterpart_model];
+    check_outputs(&outputs, read.chain(of_other.map(Option::as_deref)))
 }
 
 fn other_of(args: &Args, frames: usize) -> Result<Option<Other>> {

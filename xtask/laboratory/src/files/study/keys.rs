@@ -202,6 +202,13 @@ impl Checked {
                 let within = format!("[{}]: ", key.name);
                 self.table(&place.inner(path, within), table, keys)
             }
+            (Kind::Tables(_), DeValue::Array(all)) if all.is_empty() => {
+                bail!(
+                    "line {line}: {} holds none: it takes one, as in {}",
+                    key.name,
+                    key.example
+                )
+            }
             (Kind::Tables(keys), DeValue::Array(all)) => {
                 let mut all = all.iter().enumerate();
                 all.try_for_each(|(number, one)| {
@@ -266,16 +273,21 @@ impl<'t> Place<'t> {
 impl Kind {
     fn holds(&self, value: &DeValue<'_>) -> bool {
         match self {
-            Self::Text | Self::Path => value.is_str(),
+            Self::Text => value.is_str(),
+            Self::Path => value.as_str().is_some_and(is_path),
             Self::Number => number(value).is_some(),
             Self::Above0 => number(value).is_some_and(|number| number > 0.0 && number.is_finite()),
             Self::Pair => value.as_array().is_some_and(|pair| {
-                pair.len() == 2 && pair.iter().all(|one| number(one.get_ref()).is_some())
+                let is_number =
+                    |one: &Spanned<DeValue<'_>>| number(one.get_ref()).is_some_and(f64::is_finite);
+                pair.len() == 2 && pair.iter().all(is_number)
             }),
             Self::OneOf(words) => value.as_str().is_some_and(|word| words.contains(&word)),
-            Self::Paths => value
-                .as_table()
-                .is_some_and(|table| table.values().all(|one| one.get_ref().is_str())),
+            Self::Paths => value.as_table().is_some_and(|table| {
+                table
+                    .values()
+                    .all(|one| one.get_ref().as_str().is_some_and(is_path))
+            }),
             Self::Table(_) | Self::Tables(_) => false,
         }
     }
@@ -283,7 +295,7 @@ impl Kind {
     fn words(&self) -> String {
         match self {
             Self::Text => "text in quotes".to_owned(),
-            Self::Path => "a file or folder in quotes".to_owned(),
+            Self::Path => format!("a file or folder in quotes{ESCAPES}"),
             Self::Number => "a number".to_owned(),
             Self::Above0 => "a number above 0".to_owned(),
             Self::Pair => "two numbers".to_owned(),
@@ -292,11 +304,19 @@ impl Kind {
                 quoted.collect::<Vec<_>>().join(" or ")
             }
             Self::Paths => {
-                "files or folders in quotes, each with the name of its source".to_owned()
+                format!("files or folders in quotes{ESCAPES}, each with the name of its source")
             }
             Self::Table(_) | Self::Tables(_) => "a table".to_owned(),
         }
     }
+}
+
+/// What becomes of a backslash, as those have it who copy a path.
+const ESCAPES: &str = " (between \"\" a backslash begins another character: write / in its place)";
+
+/// Whether text may be a path: not where a backslash made a character of it that stands in no file's name.
+fn is_path(text: &str) -> bool {
+    !text.is_empty() && !text.contains(char::is_control)
 }
 
 /// The key and the value of a line whose value is a word or path without quotes.

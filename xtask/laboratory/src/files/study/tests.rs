@@ -100,6 +100,32 @@ const FEMUR: &str = "[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
 /// Studies that are refused, and words of why; `STUDY;` and `FEMUR;` stand for what most begin and end with.
 const FAULTY: &[(&str, [&str; 2])] = &[
     (
+        "STUDY;component = []\n",
+        ["line 3: component holds none", "as in [[component]]"],
+    ),
+    (
+        // A path as Windows writes it: a backslash and an f are a form feed.
+        "STUDY;frames = \"x-rays\\frames\"\nFEMUR;",
+        [
+            "line 3: frames must be a file or folder",
+            "write / in its place",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;masks.hand = \"\\tmasks\"\n",
+        [
+            "line 6: component femur: masks must be",
+            "write / in its place",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;nominal = [inf, 0.0]\n",
+        [
+            "line 6: component femur: nominal must be two numbers",
+            "a list of 2",
+        ],
+    ),
+    (
         "name = 'left'\ncalibraton = 'c.txt'\nFEMUR;",
         [
             "line 2: the key \"calibraton\" is not known",
@@ -331,4 +357,17 @@ fn frames_and_masks_of_several_sizes_are_refused() {
         halved.contains("line 3: frames has 32 x 32 pixels ("),
         "{halved}"
     );
+}
+
+/// The page opens such studies, and so does the system that they come from.
+#[test]
+fn paths_with_backslashes_lead_where_those_with_slashes_do() {
+    let folder = std::env::temp_dir().join(format!("fluoropose-back-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("x-rays/frames")).unwrap();
+    let file = folder.join("study.toml");
+    let text = format!("{STUDY}frames = 'x-rays\\frames'\n{FEMUR}");
+    std::fs::write(&file, text).unwrap();
+    let study = Study::read(&file).unwrap();
+    assert!(study.frames_folder().unwrap().is_dir());
+    std::fs::remove_dir_all(folder).unwrap();
 }
