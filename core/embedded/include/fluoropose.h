@@ -99,7 +99,7 @@ size_t fluoropose_bytes_needed(const uint8_t *implant_file, size_t implant_bytes
 /* Makes a session in `bytes` bytes of `memory`, at a multiple of 8. `trusted` is not 0 where a boot loader has checked the
  * implant's bytes: only its header is read then, and of damaged bytes poses mean nothing. Implant and memory stay where they
  * are, and are used by nothing else, for as long as the session is. There is nothing to close. `*finder` is null where it
- * fails. */
+ * fails; a session that lay in that memory may be gone then too. */
 fluoropose_status fluoropose_open(fluoropose **finder, const uint8_t *implant_file, size_t implant_bytes, int32_t trusted,
                                   const fluoropose_room *room, uint8_t *memory, size_t bytes);
 
@@ -109,7 +109,8 @@ fluoropose_status fluoropose_camera_of(fluoropose *finder, fluoropose_camera *ca
 /* Looks at frames of another camera from now on; a search that was begun is given up, a silhouette forgotten. */
 fluoropose_status fluoropose_set_camera(fluoropose *finder, const fluoropose_camera *camera);
 
-/* The same of a camera whose detector's place is known, which no other tells: poses behind it are doubtful. */
+/* The same of a camera whose detector's place is known, which no other tells: poses behind it are doubtful. Its pixels are square; those of
+ * another pitch along rows than along columns are fluoropose_set_camera's, with fx and fy apart. */
 fluoropose_status fluoropose_set_calibration(fluoropose *finder, const fluoropose_calibration *calibration);
 
 /* Takes the outline of the next frame, whose last point is joined to the first. The points are needed no more afterwards. */

@@ -25,8 +25,9 @@ use crate::layouts::{CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundN
 use crate::session::{Session, units_needed};
 
 /// `fluoropose`: what begins a session's memory.
+#[repr(C)]
 pub struct Opened {
-    /// That these bytes are a session.
+    /// That these bytes are a session: the first of them, which may be read before anything is known of the others.
     mark: u32,
     session: Session<'static>,
     /// Why the last call failed.
@@ -72,9 +73,10 @@ unsafe fn opened<'a>(finder: *mut Opened) -> Option<&'a mut Opened> {
     if finder.is_null() || !finder.is_aligned() {
         return None;
     }
-    // SAFETY: it is not null and aligned, and there is a session by the caller's promise.
-    let opened = unsafe { &mut *finder };
-    (opened.mark == MARK).then_some(opened)
+    // SAFETY: it is not null and aligned; what does not begin with the mark need not be longer than that, and is not borrowed.
+    let mark = unsafe { (&raw const (*finder).mark).read() };
+    // SAFETY: only `fluoropose_open` writes the mark, before a session, and takes it away before it writes anything else there.
+    (mark == MARK).then(|| unsafe { &mut *finder })
 }
 
 impl Opened {
@@ -100,7 +102,7 @@ unsafe fn implant<'a>(
     trusted: i32,
 ) -> Result<ImplantFile<'a>, Failure> {
     // SAFETY: the caller's promise.
-    let bytes = unsafe { list(bytes, length) }.unwrap_or_default();
+    let bytes = unsafe { list(bytes, length) }.ok_or(Failure::Pointer)?;
     Ok(match trusted {
         0 => ImplantFile::open(bytes)?,
         _ => ImplantFile::trusted(bytes)?,
@@ -144,13 +146,13 @@ pub unsafe extern "C" fn fluoropose_open(
     bytes: usize,
 ) -> Status {
     // SAFETY: the caller's promise.
-    let Some([room]) = (unsafe { list(room, 1) }) else {
-        return Status::Pointer;
-    };
-    // SAFETY: the caller's promise.
     if let Err(failure) = unsafe { put(finder, core::ptr::null_mut()) } {
         return failure.status();
     }
+    // SAFETY: the caller's promise.
+    let Some([room]) = (unsafe { list(room, 1) }) else {
+        return Status::Pointer;
+    };
     let memory = memory.cast::<MaybeUninit<Unit>>();
     if memory.is_null() || !memory.is_aligned() || bytes > isize::MAX as usize {
         return Status::Pointer;
@@ -167,6 +169,8 @@ pub unsafe extern "C" fn fluoropose_open(
     let Some((own, rest)) = units.split_at_mut_checked(own) else {
         return Status::Memory;
     };
+    // Of a session that lay here nothing is left from now on, whatever becomes of the new one.
+    own.fill(MaybeUninit::new(0));
     let session = match Session::new(file, room, Block::new(rest)) {
         Ok(session) => session,
         Err(failure) => return failure.status(),

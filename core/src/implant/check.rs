@@ -6,7 +6,9 @@ use super::open::{ImplantFile, Parts};
 use super::wire::HEADER_BYTES;
 use crate::checksum::Checksum;
 use crate::library::Library;
+use crate::math::dot;
 use crate::mesh::Mesh;
+use crate::mesh::symmetry::SymmetryPlane;
 
 /// A check that can be interrupted: [`Self::go_on`] sums some bytes of the body at a time; [`Self::finish`] does the rest.
 pub struct ImplantCheck<'a> {
@@ -107,9 +109,37 @@ impl<'a> ImplantCheck<'a> {
         if bounds != expected {
             return Err(ImplantError::Value("bounds"));
         }
+        check_planes(file.planes(), file.deviation_mm())?;
         if !parts.edges.are_some() || !parts.edges.fit(parts.vertices.len()) {
             return Err(ImplantError::Value("edges"));
         }
         Ok(file)
+    }
+}
+
+/// How far the square of a normal's length may be from that of a unit.
+const UNIT: f64 = 1e-6;
+/// Lengths and coordinates that an implant may have, mm: those of its vertices.
+const LONGEST_MM: f64 = 1e4;
+
+/// Whether planes can be mirrored in, and deviations are lengths: a pose whose mirror image is none would be taken for the only one.
+///
+/// # Errors
+/// [`ImplantError::Value`].
+pub(super) fn check_planes(
+    planes: &[SymmetryPlane],
+    deviation_mm: f64,
+) -> Result<(), ImplantError> {
+    let is_length = |value: f64| (0.0..=LONGEST_MM).contains(&value);
+    let is_possible = |plane: &SymmetryPlane| {
+        let length = dot(&plane.normal, &plane.normal);
+        (length - 1.0).abs() <= UNIT
+            && plane.point.iter().all(|at| is_length(at.abs()))
+            && is_length(plane.deviation_mm)
+    };
+    match (planes.iter().all(is_possible), is_length(deviation_mm)) {
+        (true, true) => Ok(()),
+        (false, _) => Err(ImplantError::Value("planes of symmetry")),
+        (_, false) => Err(ImplantError::Value("deviation")),
     }
 }

@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::check::check_planes;
 use super::error::ImplantError;
 use super::header::Header;
 use super::needs::contour_needed;
@@ -24,6 +25,7 @@ pub fn write_implant(
     planes: &[SymmetryPlane],
     deviation_mm: f64,
 ) -> Result<Vec<u8>, ImplantError> {
+    check_planes(planes, deviation_mm)?;
     if Library::open(library)?.info().model != model.digest() {
         return Err(ImplantError::OtherModel);
     }

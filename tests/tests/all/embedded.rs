@@ -30,7 +30,7 @@ const ROOM: Room = Room {
 /// A session as C has it.
 struct Opened {
     finder: *mut fluoropose_embedded::exports::Opened,
-    _memory: Vec<u64>,
+    memory: Vec<u64>,
 }
 
 fn opened(implant: &[u8], room: &Room) -> Opened {
@@ -52,10 +52,7 @@ fn opened(implant: &[u8], room: &Room) -> Opened {
         }
         let status = fluoropose_open(&mut finder, bytes, length, 0, room, place, needed);
         assert_eq!((status, finder.is_null()), (Status::Ok, false));
-        Opened {
-            finder,
-            _memory: memory,
-        }
+        Opened { finder, memory }
     }
 }
 
@@ -282,7 +279,7 @@ fn another_camera_gives_up_what_was_found() {
 fn nothing_is_opened_by_pointers_that_lead_nowhere() {
     let (_, bytes) = made_femur();
     let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
-    let (mut finder, mut memory) = (null_mut(), vec![0u64; 64]);
+    let mut memory = vec![0u64; 64];
     let place: *mut u8 = memory.as_mut_ptr().cast();
     let room: *const Room = &ROOM;
     // SAFETY: what is not null leads to as much as is said.
@@ -293,12 +290,14 @@ fn nothing_is_opened_by_pointers_that_lead_nowhere() {
             (Status::Pointer, file, length, room, null_mut()),
             (Status::Pointer, file, length, room, odd),
             (Status::Pointer, file, length, odd.cast(), place),
-            (Status::Implant, null(), length, room, place),
+            (Status::Pointer, null(), length, room, place),
             (Status::Implant, file.add(1), length - 1, room, place),
             (Status::Implant, file, 7, room, place),
-            (Status::Implant, file, usize::MAX, room, place),
+            (Status::Pointer, file, usize::MAX, room, place),
+            (Status::Implant, null(), 0, room, place),
         ] {
             for trusted in [0, 1] {
+                let mut finder = place.cast();
                 let opened = fluoropose_open(&mut finder, file, length, trusted, room, place, 504);
                 assert_eq!((opened, finder.is_null()), (status, true));
             }
@@ -379,6 +378,26 @@ fn what_is_no_session_is_refused_by_each_function() {
         let said = String::from_utf8_lossy(&text[..said.min(199)]).into_owned();
         assert!(said.contains("cut or padded"), "{said}");
         assert!(fluoropose_implant_sentence(null(), 5, 1, null_mut(), 5) > 0);
+    }
+}
+
+/// What tells a session is read before it is known that there is one: no more than its first bytes may be looked at.
+#[test]
+fn a_session_is_told_by_its_first_bytes_and_none_is_left_where_another_could_not_be_made() {
+    let (_, bytes) = made_femur();
+    let c = opened(bytes.bytes(), &ROOM);
+    assert_eq!(c.memory[0].to_le_bytes()[..4], *b"FLPO");
+    let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
+    let (mut again, mut memory) = (null_mut(), c.memory);
+    let room: *const Room = &ROOM;
+    // SAFETY: bytes and memory are as long as is said, and the first session is not gone on with where it is none.
+    unsafe {
+        let place = memory.as_mut_ptr().cast();
+        let short = 8 * memory.len() - 8;
+        let status = fluoropose_open(&mut again, file, length, 1, room, place, short);
+        assert_eq!((status, again.is_null()), (Status::Memory, true));
+        let before = place.cast();
+        assert_eq!(fluoropose_begin_rows(before), Status::Pointer);
     }
 }
 

@@ -210,6 +210,45 @@ fn what_is_known_of_an_implant_is_read_back() {
     }
 }
 
+/// With sums that are right: what was written wrongly, and not what was damaged.
+#[test]
+fn planes_and_deviations_that_cannot_be_are_refused() {
+    let (own, words) = made_tibia();
+    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+    let put = |at: usize, values: &[f64]| {
+        let mut bytes = words.bytes().to_vec();
+        for (place, value) in bytes[at..].as_chunks_mut().0.iter_mut().zip(values) {
+            *place = value.to_le_bytes();
+        }
+        let sum = crc.checksum(&bytes[..HEADER_BYTES - 4]);
+        bytes[HEADER_BYTES - 4..HEADER_BYTES].copy_from_slice(&sum.to_le_bytes());
+        ImplantFile::open(Words::of(&bytes).bytes()).err()
+    };
+    let planes = Some(ImplantError::Value("planes of symmetry"));
+    let (deviation, point, normal, off) = (52, 92, 116, 140);
+    assert_eq!(put(deviation, &[0.5]), None);
+    assert_eq!(put(normal, &[0.6, 0.0, 0.8]), None);
+    for wrong in [[f64::NAN; 3], [0.0; 3], [0.0, 0.0, 3.0]] {
+        assert_eq!(put(normal, &wrong), planes, "{wrong:?}");
+    }
+    assert_eq!(put(point, &[f64::INFINITY]), planes);
+    for wrong in [f64::NAN, -1.0] {
+        assert_eq!(put(off, &[wrong]), planes);
+        assert_eq!(
+            put(deviation, &[wrong]),
+            Some(ImplantError::Value("deviation"))
+        );
+    }
+    let mut planes = symmetry_planes(own.as_model().mesh());
+    planes[0].normal = [0.0; 3];
+    let library = &words.bytes()[words.length - library_bytes(words.bytes())..];
+    let written = write_implant(&own.as_model(), library, &planes, 0.0);
+    assert_eq!(
+        written.err(),
+        Some(ImplantError::Value("planes of symmetry"))
+    );
+}
+
 #[test]
 fn damaged_bytes_are_refused() {
     let (_, mut words) = made_femur();
