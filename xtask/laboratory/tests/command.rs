@@ -383,75 +383,61 @@ fn a_film_without_an_implant_exits_with_its_own_code() {
     assert!(!Path::new(&folder.0.join("t")).exists());
 }
 
+const POSE: &str = "pose --library l --model m --calibration c --masks k";
+const LIBRARY: &str = "library --model m --calibration c";
+/// What cannot be meant, and a part of what is said of it; `POSE` and `LIBRARY` stand for what most begin with.
+const REFUSED: [(&str, &str); 16] = [
+    (
+        "POSE --out p.jts --frames f",
+        "looked at by --method image alone",
+    ),
+    (
+        "POSE --out p.jts --dark-implant",
+        "for --method image, not library",
+    ),
+    (
+        "POSE --out p.jts --edge-offset",
+        "by --method refined and image",
+    ),
+    (
+        "POSE --out p.csv --report ./p.csv",
+        "--out and --report both name",
+    ),
+    ("POSE --out no/p.jts", "cannot write no/p.jts"),
+    (
+        "POSE --out p.jts --report no/p.csv",
+        "cannot write no/p.csv",
+    ),
+    ("POSE --out m", "--out names m, which is read too"),
+    ("LIBRARY --out m", "--out names m, which is read too"),
+    ("LIBRARY --out l --sheet l", "--out and --sheet both name"),
+    (
+        "LIBRARY --out l --for firmware --flash 9K --sheet s",
+        "cannot be used with",
+    ),
+    ("LIBRARY --out l --x=-4:4:3", "lead from -4 to 2, not to 4"),
+    ("evaluate --study s --centred", "is of --method refined"),
+    ("evaluate --study s --json no/a", "cannot write no/a"),
+    (
+        "compare --study s --poses p --json s",
+        "--json names s, which is",
+    ),
+    (
+        "outline --study s --component f --frame 0",
+        "no whole number above 0",
+    ),
+    (
+        "disguise --study s --out d --seed 1 --frames 0",
+        "no whole number",
+    ),
+];
+
 /// Nothing of what is named is there: whatever is read first would be told.
 #[test]
 fn what_would_be_left_out_or_written_over_is_refused_before_any_work() {
     let folder = Folder::new("refused");
-    let pose = "pose --library l --model m --calibration c --masks k";
-    let library = "library --model m --calibration c";
-    for (words, why) in [
-        (
-            format!("{pose} --out p.jts --frames f"),
-            "--frames are looked at by --method image alone",
-        ),
-        (
-            format!("{pose} --out p.jts --dark-implant"),
-            "for --method image, not library",
-        ),
-        (
-            format!("{pose} --out p.jts --edge-offset"),
-            "by --method refined and image, not library",
-        ),
-        (
-            format!("{pose} --out p.csv --report ./p.csv"),
-            "--out and --report both name",
-        ),
-        (format!("{pose} --out no/p.jts"), "cannot write no/p.jts"),
-        (
-            format!("{pose} --out p.jts --report no/p.csv"),
-            "cannot write no/p.csv",
-        ),
-        (
-            format!("{pose} --out m"),
-            "--out names m, which is read too",
-        ),
-        (
-            format!("{library} --out m"),
-            "--out names m, which is read too",
-        ),
-        (
-            format!("{library} --out l --sheet l"),
-            "--out and --sheet both name",
-        ),
-        (
-            format!("{library} --out l --for firmware --flash 9K --sheet s"),
-            "cannot be used with",
-        ),
-        (
-            format!("{library} --out l --x=-4:4:3"),
-            "lead from -4 to 2, not to 4",
-        ),
-        (
-            "evaluate --study s --centred".to_owned(),
-            "--centred is of --method refined",
-        ),
-        (
-            "evaluate --study s --json no/a".to_owned(),
-            "cannot write no/a",
-        ),
-        (
-            "compare --study s --poses p --json s".to_owned(),
-            "--json names s, which is read too",
-        ),
-        (
-            "outline --study s --component f --frame 0".to_owned(),
-            "no whole number above 0",
-        ),
-        (
-            "disguise --study s --out d --seed 1 --frames 0".to_owned(),
-            "no whole number above 0",
-        ),
-    ] {
+    for (words, why) in REFUSED {
+        let words = words.replace("POSE", POSE).replace("LIBRARY", LIBRARY);
         let (code, said) = folder.run(&words.split(' ').collect::<Vec<_>>());
         assert!(
             said.contains(why) && (1..=2).contains(&code),

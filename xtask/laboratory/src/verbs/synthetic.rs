@@ -278,6 +278,41 @@ fn print(accuracy: &Accuracy) {
 mod tests {
     use super::*;
 
+    const PROTOCOL: &str = "--model a.stl --calibration b.txt";
+    const AROUND: &str =
+        "--model a.stl --calibration b.txt --any-view --any-axes --poses 20 --distance 900";
+    const ACTIVITY: &str = "--activity gait --out x --frames 3 --side right --cement --second-leg";
+    /// What is asked for, and options that go with it.
+    const RIGHT: [(&str, &str); 6] = [
+        (AROUND, ""),
+        (ACTIVITY, ""),
+        ("--films", "--count 3 --only cement --way click --seed 4"),
+        (
+            PROTOCOL,
+            "--jitter 1 --correlation 5 --occlude 0.2 --unmarked",
+        ),
+        (PROTOCOL, "--refusal --other a.stl"),
+        (PROTOCOL, "--method refined --x=-3:3:1"),
+    ];
+    /// The same, and options each of which it has no use for.
+    const WRONG: [(&str, &str); 9] = [
+        (
+            PROTOCOL,
+            "--count 3|--only cement|--way click|--any-axes|--other c.stl",
+        ),
+        (PROTOCOL, "--x=-3:3:1 --any-axes|--x=-3:3:1 --other c.stl"),
+        (
+            PROTOCOL,
+            "--frames 3|--implants s|--stretch 1,1,1|--blur 1|--out x",
+        ),
+        (PROTOCOL, "--poses 0|--unmarked|--correlation 3"),
+        (AROUND, "--method image|--x=-3:3:1|--jitter 1|--refusal"),
+        (ACTIVITY, "--model a.stl|--poses 3|--json a.json|--jitter 1"),
+        (ACTIVITY, "--films|--any-view"),
+        ("--films", "--model a.stl|--poses 3|--frames 3"),
+        ("--films", "--display linear|--count 0"),
+    ];
+
     #[test]
     fn what_would_be_left_out_is_refused() {
         #[derive(clap::Parser)]
@@ -285,70 +320,18 @@ mod tests {
             #[command(flatten)]
             args: Args,
         }
-        let parsed = |words: &str| {
-            let words = ["synthetic"].into_iter().chain(words.split_whitespace());
+        let parsed = |what: &str, more: &str| {
+            let words = ["synthetic", what, more];
+            let words = words.iter().flat_map(|words| words.split_whitespace());
             <Verb as clap::Parser>::try_parse_from(words).map(|verb| verb.args)
         };
-        let protocol = "--model a.stl --calibration b.txt";
-        let around = format!("{protocol} --any-view --any-axes --poses 20 --distance 900");
-        let activity = "--activity gait --out x --frames 3 --side right --cement --second-leg";
-        let hand = format!("{protocol} --jitter 1 --correlation 5 --occlude 0.2 --unmarked");
-        for right in [
-            &around,
-            &hand,
-            activity,
-            "--films --count 3 --only cement --way click --seed 4",
-            &format!("{protocol} --refusal --other a.stl"),
-            &format!("{protocol} --method refined --x=-3:3:1"),
-        ] {
-            assert!(parsed(right).is_ok(), "{right}");
+        for (what, more) in RIGHT {
+            assert!(parsed(what, more).is_ok(), "{what} {more}");
         }
-        let with = |what: &str, all: &[&str]| {
-            for more in all {
-                assert!(parsed(&format!("{what} {more}")).is_err(), "{what} {more}");
+        for (what, all) in WRONG {
+            for more in all.split('|') {
+                assert!(parsed(what, more).is_err(), "{what} {more}");
             }
-        };
-        let of_films = [
-            "--count 3",
-            "--only cement",
-            "--way click",
-            "--any-axes",
-            "--other c.stl",
-        ];
-        with(&format!("{protocol} --x=-3:3:1"), &of_films);
-        with(
-            protocol,
-            &[
-                "--frames 3",
-                "--implants s",
-                "--stretch 1,1,1",
-                "--blur 1",
-                "--out x",
-            ],
-        );
-        with(protocol, &["--poses 0", "--unmarked", "--correlation 3"]);
-        with(
-            &around,
-            &["--method image", "--x=-3:3:1", "--jitter 1", "--refusal"],
-        );
-        with(
-            activity,
-            &[
-                "--model a.stl",
-                "--poses 3",
-                "--json a.json",
-                "--jitter 1",
-                "--films",
-            ],
-        );
-        with(
-            "--films",
-            &[
-                "--model a.stl",
-                "--poses 3",
-                "--frames 3",
-                "--display linear",
-            ],
-        );
+        }
     }
 }
