@@ -458,3 +458,31 @@ fn a_key_that_leaves_a_component_out_of_the_comparison_is_told() {
     let (code, said) = folder.run(&["compare", "--study", ".", "--poses", "."]);
     assert!(code == 1 && said.contains("was reference meant?"), "{said}");
 }
+
+/// Rows of a table would be of nothing: following takes hours before that is known.
+#[test]
+fn a_truth_is_asked_for_before_a_disguise_is_followed() {
+    let folder = Folder::new("truth");
+    let study = "name = 'a'\ncalibration = 'c.txt'\nframes = 'f'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
+    folder.write("study.toml", study);
+    let words = "disguise --study . --out d --seed 1 --track";
+    let (code, said) = folder.run(&words.split(' ').collect::<Vec<_>>());
+    assert!(code == 1 && said.contains("has a reference"), "{said}");
+}
+
+/// Its folder holds the reference poses under the names that found ones have.
+#[test]
+fn found_poses_are_not_written_over_those_of_the_study() {
+    let folder = Folder::new("over");
+    let options = Options {
+        frames: 1,
+        pixels: 64,
+        implants: Some(Implants::built_in(Side::Left, 0.5).expect("possible")),
+        ..Options::default()
+    };
+    sequence::write(&options, &folder.0).expect("a study");
+    let before = folder.read("femur.jts");
+    let (code, said) = folder.run(&["track", "--study", ".", "--out", "."]);
+    assert!(code == 1 && said.contains("which is read too"), "{said}");
+    assert_eq!(folder.read("femur.jts"), before);
+}

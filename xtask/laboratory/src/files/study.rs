@@ -25,6 +25,9 @@ use super::text::read_text;
 /// So many letters in which a name differs may be slips.
 const NEARLY: usize = 2;
 
+/// A film is read in squares of 4 pixels at most, and a blur of more than 3 of their sides is taken for that.
+const MOST_BLUR_PX: f64 = 12.0;
+
 /// A sequence of frames with one or more components.
 #[derive(Debug, Deserialize)]
 pub struct Study {
@@ -98,10 +101,15 @@ impl StatedFilm {
         if self.curvature.is_some() && (self.display.is_some() || self.blur_px.is_none()) {
             bail!("[film]: curvature is stated with blur_px, and without display, which it tells");
         }
-        let possible =
-            |number: Option<f64>, least: f64| number.is_none_or(|x| x >= least && x.is_finite());
-        if !possible(self.curvature, 0.0) || !possible(self.blur_px, f64::MIN_POSITIVE) {
-            bail!("[film]: curvature is 0 or more and blur_px above 0");
+        let possible = |number: Option<f64>, [least, most]: [f64; 2]| {
+            number.is_none_or(|number| (least..=most).contains(&number))
+        };
+        if !possible(self.curvature, [0.0, 1.0])
+            || !possible(self.blur_px, [f64::MIN_POSITIVE, MOST_BLUR_PX])
+        {
+            bail!(
+                "[film]: curvature is 0 to 1, and blur_px above 0 and at most {MOST_BLUR_PX}: of a film that is blurred more, frames in larger pixels tell as much"
+            );
         }
         Ok(())
     }
@@ -237,6 +245,7 @@ impl Study {
         study.check_names()?;
         let mut remarks = checked.remarks;
         remarks.extend(study.without_role());
+        remarks.extend(study.half_stated());
         study.resolve(path.parent().unwrap_or(Path::new("")))?;
         Ok((study, remarks))
     }
@@ -313,6 +322,26 @@ impl Study {
             ))
         };
         others.filter_map(remark).collect()
+    }
+
+    /// Components whose attenuation does not go with what is stated of the film: a sentence each, without its full stop.
+    fn half_stated(&self) -> Vec<String> {
+        let is_whole = self.film.is_some_and(|film| film.constants().is_some());
+        let others = self.components.iter().enumerate();
+        let others = others.filter(|(_, one)| one.attenuation.is_some() != is_whole);
+        let remark = |(number, one): (usize, &Component)| {
+            let line = self.line(&format!("component.{number}"));
+            let told = match is_whole {
+                true => {
+                    "states no attenuation, as in attenuation = 0.7, which goes with [film] curvature and blur_px: what the film shows of it is not known, and its depth is off by millimetres"
+                }
+                false => {
+                    "states an attenuation, which is left out: it goes with [film] curvature and blur_px, without which all of it is estimated"
+                }
+            };
+            format!("{line}component {}: {told}", one.name)
+        };
+        others.map(remark).collect()
     }
 
     /// Names become names of files, and tell components apart.

@@ -14,9 +14,9 @@ mod write;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
-use crate::files::{Film, Study, check_outputs, read_text, write_json};
+use crate::files::{Component, Film, Study, check_outputs, read_text, write_json};
 use crate::options::{Seeds, at_least_1, study_files};
 use crate::verbs::compare::COLUMNS;
 use crate::verbs::measured_film::{HEADING, Words, follow};
@@ -75,7 +75,15 @@ pub fn run(args: Args) -> Result<()> {
         [Some(&*args.study), args.stated.as_deref()],
     )?;
     // What it says of its keys is said once, however many seeds there are.
-    Study::read(&args.study)?;
+    let study = Study::read(&args.study)?;
+    let is_known = |one: &Component| {
+        one.reference.is_some() && args.only.as_ref().is_none_or(|only| *only == one.name)
+    };
+    ensure!(
+        !args.track || study.components.iter().any(is_known),
+        "--track compares with the truth, and no component of {} that is asked for has a reference: name the file of its poses",
+        args.study.display()
+    );
     let mut rows = Vec::new();
     if args.track {
         println!("{HEADING}");

@@ -43,7 +43,7 @@ pub struct Args {
     /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
     #[arg(long)]
     calibration: PathBuf,
-    /// Width and height of the frames, pixels; only recorded. A camera matrix has its own
+    /// Width and height of the frames, pixels; only recorded, but poses are tried in them with --for firmware. A camera matrix has its own
     #[arg(long, value_name = "W,H", default_value = "1024,1024")]
     frame: Pair,
     #[command(flatten)]

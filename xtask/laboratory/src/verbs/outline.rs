@@ -34,7 +34,7 @@ use known::Known;
 #[derive(clap::Args)]
 #[command(
     after_help = "For each frame of the study: a click where the implant is thickest, a click anywhere inside it and a rough box, 5 to 15 % \
-larger on each side, all derived from its mask, and a click at the middle of the model where the reference pose has it. Each is given to the one-click outline with the grey frame and the component's library, \
+larger on each side, all derived from its mask, and a click at the middle of the model where the reference pose has it. Frames without the component, or for that click without a reference pose, are left out. Each is given to the one-click outline with the grey frame and the component's library, \
 built for the usual distance; nothing else of the mask is used. The table holds the overlap (intersection over union) of the model's \
 silhouette with the mask, the pose's errors against the reference poses, and the time; and how many poses are right (at most 4 degrees and 25 mm of \
 depth off), how many of the others are told to be doubtful or refused, and how many are called good.\n\n\
@@ -170,7 +170,16 @@ pub fn run(args: Args) -> Result<()> {
         args: &args,
     };
     let mut rows = Vec::new();
-    let wanted = |kind: &Kind| args.prompt.is_none_or(|prompt| prompt == *kind);
+    let is_told = !trial.references.is_empty();
+    ensure!(
+        is_told || args.prompt != Some(Kind::Centre),
+        "--prompt centre is where the reference poses have the component, and {} has none: name their file as reference",
+        args.component
+    );
+    let wanted = |kind: &Kind| match args.prompt {
+        Some(prompt) => prompt == *kind,
+        None => is_told || *kind != Kind::Centre,
+    };
     for kind in Kind::ALL.into_iter().filter(wanted) {
         let row = trial.row(kind)?;
         print(&row);
@@ -222,10 +231,9 @@ struct Trial<'t> {
 impl Trial<'_> {
     fn row(&mut self, kind: Kind) -> Result<Row> {
         let all = 0..self.source.masks.len();
-        let frames: Vec<usize> = match self.args.frame {
-            Some(frame) => all.skip(frame - 1).take(1).collect(),
-            None => all.collect(),
-        };
+        let is_asked = |frame: &usize| self.args.frame.is_none_or(|asked| asked == frame + 1);
+        let frames = all.filter(|frame| is_asked(frame) && self.has(kind, *frame));
+        let frames: Vec<usize> = frames.collect();
         let mut outcomes = Vec::new();
         for &frame in &frames {
             outcomes.push(self.outcome(kind, frame)?);
@@ -257,6 +265,17 @@ impl Trial<'_> {
             median_ms: median(|outcome| outcome.ms),
             step_ms: median(|outcome| outcome.step_ms),
         })
+    }
+
+    /// Whether a frame has what a prompt is derived from: some of the component, and where it lies.
+    fn has(&self, kind: Kind, frame: usize) -> bool {
+        let reference = self.references.get(frame).copied().flatten();
+        let is_seen = self
+            .source
+            .masks
+            .get(frame)
+            .is_some_and(|(_, mask)| mask.mask().area() > 0);
+        is_seen && (kind != Kind::Centre || reference.is_some())
     }
 
     /// One prompt; `None` where nothing came of it.

@@ -52,9 +52,31 @@ fn a_film_is_stated_in_whole_or_in_part() {
         "blur_px = 0.0",
         "curvature = -1.0\nblur_px = 0.8",
         "display = 'bent'",
+        "blur_px = 500.0",
+        "curvature = 1e9\nblur_px = 0.8",
         "colour = 1",
     ] {
         assert!(film(wrong).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn an_attenuation_goes_with_a_film_that_is_stated_and_the_other_way_round() {
+    let whole = "[film]\ncurvature = 0.025\nblur_px = 0.8\n";
+    let own = "attenuation = 0.7\n";
+    let remarks = |film: &str, attenuation: &str| {
+        let text = format!("{STUDY}{film}{FEMUR}{attenuation}");
+        let (_, remarks) = Study::of(&text, Path::new("study.toml")).unwrap();
+        remarks.join("; ")
+    };
+    assert_eq!(remarks("", "") + &remarks(whole, own), "");
+    let without = remarks(whole, "");
+    assert!(
+        without.contains("line 6: component femur: states no attenuation"),
+        "{without}"
+    );
+    for film in ["", "[film]\nblur_px = 0.8\n"] {
+        assert!(remarks(film, own).contains("which is left out"));
     }
 }
 

@@ -110,10 +110,8 @@ fn check_out(file: &Path, study: &Study, plan: &Plan, count: usize, out: &Path) 
     };
     only(&out.join("frames"), &names(plan.frames.kind.ending()))?;
     let masks = names("png");
-    let components = study.components.iter();
-    components
-        .map(|one| only(&out.join("masks").join(&one.name), &masks))
-        .collect()
+    let mut components = study.components.iter();
+    components.try_for_each(|one| only(&out.join("masks").join(&one.name), &masks))
 }
 
 impl Frames {

@@ -47,6 +47,8 @@ pub(super) fn given(
             .iter()
             .any(|anchor: &Anchor| anchor.frame == click.frame)
         {
+            let told = format!("{}: left out, as its frame is known already", click.called);
+            (run.request.listener)(Told::Remark(told));
             continue;
         }
         let beside = beside(others, click.frame);

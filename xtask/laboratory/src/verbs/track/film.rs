@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{Anchor, Cell, Conclusion, State, frames_to_ask};
@@ -26,8 +27,8 @@ use super::sides::Margins;
 use super::squares::chosen_square;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, FoundWith, Study, camera_of_frames, read, read_calibration, size_taken, write_poses,
-    write_text,
+    Film, FoundWith, Study, camera_of_frames, check_outputs, read, read_calibration, size_taken,
+    write_poses, write_text,
 };
 use crate::finding::Stated;
 use crate::options::of_body;
@@ -113,6 +114,7 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
+    check_written(request, &study)?;
     let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
     let stated = Stated::of(study.film, &attenuations);
     let digest = digest(request, &study, &film, &models, &stated)?;
@@ -209,6 +211,22 @@ fn side_remark(study: &Study, shapes: &[Shape<'_>]) -> Option<String> {
     });
     let lack = || format!("{}: joint numbers need it{told}", study.lacks("side"));
     study.is_knee().then(lack)
+}
+
+/// Refuses a folder in which poses would be written over those that the study names: of a person, perhaps, who has no others.
+fn check_written(request: &Request, study: &Study) -> Result<()> {
+    let components = study.components.iter();
+    let poses = components.map(|one| request.out.join(format!("{}.jts", one.name)));
+    let poses: Vec<PathBuf> = poses.collect();
+    let outputs = poses.iter().map(|path| ("--out", Some(&**path)));
+    let named = study
+        .components
+        .iter()
+        .flat_map(|one| one.reference.iter().chain(one.peer.values()));
+    check_outputs(
+        &outputs.collect::<Vec<_>>(),
+        named.map(|path| Some(&**path)),
+    )
 }
 
 /// Whether the study has the components that are asked for.
