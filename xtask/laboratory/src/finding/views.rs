@@ -13,11 +13,11 @@ pub struct ViewOptions {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub nominal: Option<Pair>,
     /// Rotations about x, degrees, as first:last:step [default: all directions; -15:15:1 where y or the nominal view is
-    /// given]
+    /// given, and in `synthetic`]
     #[arg(long, allow_hyphen_values = true)]
     pub x: Option<Range>,
     /// Rotations about y, degrees, as first:last:step [default: all directions; -20:20:1 where x or the nominal view is
-    /// given]
+    /// given, and in `synthetic`]
     #[arg(long, allow_hyphen_values = true)]
     pub y: Option<Range>,
     /// Distance from the focus to the object in the views, mm [default: 0.9 of the principal

@@ -7,6 +7,7 @@ use fluoropose_phantom::film::activity::Activity;
 use fluoropose_phantom::implant::Side;
 use fluoropose_phantom::own_folder::check_source;
 use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_report::counted;
 
 use super::implants::of_study;
 use super::physics::PhysicsOptions;
@@ -69,7 +70,7 @@ pub(super) fn run(args: &ActivityArgs, seed: u64) -> Result<()> {
         "a shutter is open for 0 to 1 of the time, not {}",
         args.shutter
     );
-    let stretch = <[f64; 3]>::try_from(args.stretch.as_slice());
+    let stretch = <[f64; 3]>::try_from(args.stretch.as_slice()).ok();
     let stretch = stretch.context("--stretch takes three numbers, as 1.1,1,0.9")?;
     let implants = args.implants.as_deref();
     implants.map_or(Ok(()), |study| check_source(study, out))?;
@@ -87,6 +88,6 @@ pub(super) fn run(args: &ActivityArgs, seed: u64) -> Result<()> {
         ..Options::default()
     };
     sequence::write(&options, out)?;
-    println!("{} frames in {}", args.frames, out.display());
+    println!("{} in {}", counted(args.frames, "frame"), out.display());
     Ok(())
 }

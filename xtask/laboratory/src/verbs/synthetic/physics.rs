@@ -5,6 +5,11 @@ use fluoropose_phantom::film::{Cement, Display, Exposure, Field, Physics, Sampli
 
 use crate::options::Pair;
 
+/// Pixels of a blur at most: it takes time by its width. Parts of the light and attenuations a mm; quanta, as a multiple of the usual number.
+const MOST_PX: f64 = 100.0;
+const MOST: f64 = 10.0;
+const MOST_QUANTA: f64 = 1e6;
+
 /// How a synthetic film is made.
 #[derive(clap::Args)]
 pub(super) struct PhysicsOptions {
@@ -50,35 +55,43 @@ impl PhysicsOptions {
     /// The film asked for.
     ///
     /// # Errors
-    /// For a negative number, and what is none.
+    /// For a number below zero, or above what a film can be; names its option.
     pub(super) fn physics(&self) -> Result<Physics> {
         let mut physics = Physics {
             sampling: Sampling::EXACT,
             ..Physics::default()
         };
         physics.display = self.display.unwrap_or_default();
-        let set = |to: &mut f64, value: Option<f64>| -> Result<()> {
+        let set = |option: &str, to: &mut f64, value: Option<f64>, most: f64| -> Result<()> {
             if let Some(value) = value {
-                ensure!(value >= 0.0, "{value} is below zero");
+                within(option, value, most)?;
                 *to = value;
             }
             Ok(())
         };
-        set(&mut physics.blur.detector_px, self.blur)?;
-        set(&mut physics.scatter.share, self.scatter)?;
-        set(&mut physics.scatter.glare, self.glare)?;
-        set(&mut physics.alloys.hardening, self.hardening)?;
+        set("--blur", &mut physics.blur.detector_px, self.blur, MOST_PX)?;
+        set("--scatter", &mut physics.scatter.share, self.scatter, MOST)?;
+        set("--glare", &mut physics.scatter.glare, self.glare, MOST)?;
+        set(
+            "--hardening",
+            &mut physics.alloys.hardening,
+            self.hardening,
+            MOST,
+        )?;
         if let Some(Pair([femur, tibia])) = self.opacity {
-            set(&mut physics.alloys.femur, Some(femur))?;
-            set(&mut physics.alloys.tibia, Some(tibia))?;
+            set("--opacity", &mut physics.alloys.femur, Some(femur), MOST)?;
+            set("--opacity", &mut physics.alloys.tibia, Some(tibia), MOST)?;
         }
         if let Some(exposure) = self.exposure {
             ensure!(exposure > 0.0, "an exposure of {exposure} shows nothing");
+            within("--exposure", exposure, MOST_QUANTA)?;
             physics.exposure = Exposure(exposure);
         }
-        physics.unsharp = self
-            .unsharp
-            .map(|Pair([amount, sigma_px])| Unsharp { amount, sigma_px });
+        if let Some(Pair([amount, sigma_px])) = self.unsharp {
+            within("--unsharp", amount, MOST)?;
+            within("--unsharp", sigma_px, MOST_PX)?;
+            physics.unsharp = Some(Unsharp { amount, sigma_px });
+        }
         physics.surroundings.cement = self.cement.then(Cement::default);
         physics.surroundings.screws = self.screws;
         physics.surroundings.ruler = self.ruler;
@@ -88,5 +101,57 @@ impl PhysicsOptions {
             Field::Round
         };
         Ok(physics)
+    }
+}
+
+fn within(option: &str, value: f64, most: f64) -> Result<()> {
+    ensure!(
+        (0.0..=most).contains(&value),
+        "{option} is {value}; it must be 0 to {most}"
+    );
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_film_has_is_refused_and_named() {
+        #[derive(clap::Parser)]
+        struct Verb {
+            // What the options go with.
+            #[arg(long, group = "drawn")]
+            activity: bool,
+            #[command(flatten)]
+            physics: PhysicsOptions,
+        }
+        let told = |words: &str| {
+            let words = ["film", "--activity"]
+                .into_iter()
+                .chain(words.split_whitespace());
+            let verb = <Verb as clap::Parser>::try_parse_from(words).unwrap();
+            assert!(verb.activity);
+            verb.physics
+                .physics()
+                .map_or_else(|error| error.to_string(), |_| String::new())
+        };
+        assert_eq!(
+            told("--blur 1.2 --scatter 0.4 --unsharp 0.8,3 --exposure 0.3 --opacity 0.7,0.2"),
+            ""
+        );
+        // A blur so wide would be drawn for hours.
+        assert_eq!(told("--blur 1e6"), "--blur is 1000000; it must be 0 to 100");
+        for wrong in [
+            "--blur nan",
+            "--scatter 50",
+            "--glare inf",
+            "--unsharp 0.8,1e9",
+            "--exposure inf",
+            "--opacity 1,nan",
+        ] {
+            let option = wrong.split(' ').next().unwrap();
+            assert!(told(wrong).starts_with(option), "{wrong}: {}", told(wrong));
+        }
     }
 }
