@@ -294,6 +294,18 @@ fn a_disguise_has_a_folder_of_its_own() {
     );
 }
 
+/// A row that is missing makes all behind it those of other frames.
+#[test]
+fn references_of_other_frames_are_refused() {
+    let small = Small::new("disguise-rows");
+    write_poses(&small.0.join("femur.jts"), &poses().map(Some)).unwrap();
+    let said = refused(&small.study(), &plan(1), &small.0.join("out"));
+    assert!(
+        said.contains("there are 2 rows, but the film has 1 frames"),
+        "{said}"
+    );
+}
+
 #[test]
 fn names_in_all_letters_are_read_back() {
     let small = Small::new("disguise-names");

@@ -164,7 +164,7 @@ pub fn run(args: Args) -> Result<()> {
             false => Known::default(),
         },
         clicker: Clicker::open(&library.bytes, mesh, source.camera)?,
-        references: references(component)?,
+        references: references(component, source.masks.len())?,
         source: &source,
         mesh,
         args: &args,
@@ -212,11 +212,18 @@ fn asked_for<'s>(study: &'s Study, args: &Args) -> Result<(&'s Component, &'s Pa
     Ok((component, masks))
 }
 
-fn references(component: &Component) -> Result<Vec<Option<Pose>>> {
+fn references(component: &Component, count: usize) -> Result<Vec<Option<Pose>>> {
     let Some(path) = &component.reference else {
         return Ok(Vec::new());
     };
-    read_poses(path)
+    let poses = read_poses(path)?;
+    let rows = poses.len();
+    ensure!(
+        rows == count,
+        "{}: there are {rows} rows, but {count} masks; both must be of the same frames",
+        path.display()
+    );
+    Ok(poses)
 }
 
 struct Trial<'t> {

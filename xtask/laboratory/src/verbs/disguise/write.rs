@@ -52,7 +52,7 @@ pub fn disguise(file: &Path, plan: &Plan, out: &Path) -> Result<Lens> {
     let known: Vec<Known<'_>> = study
         .components
         .iter()
-        .map(|component| Known::read(component, folder, &chosen))
+        .map(|component| Known::read(component, (folder, film.count()), &chosen))
         .collect::<Result<_>>()?;
     let calibration = read_calibration(&study.calibration)?;
     let camera = calibration.camera(film.size().0, film.size().1)?;
@@ -218,10 +218,21 @@ struct Known<'s> {
 }
 
 impl<'s> Known<'s> {
-    fn read(component: &'s Component, frames: &Path, chosen: &[usize]) -> Result<Self> {
+    /// Of a film of so many frames in a folder.
+    fn read(
+        component: &'s Component,
+        (frames, count): (&Path, usize),
+        chosen: &[usize],
+    ) -> Result<Self> {
         let middle = component.read_model()?.as_model().bounds().centre;
         let poses = component.reference.as_ref().map(|path| {
             let all = read_poses_of(path, Some(frames))?;
+            let rows = all.len();
+            ensure!(
+                rows == count,
+                "{}: there are {rows} rows, but the film has {count} frames",
+                path.display()
+            );
             let pose = |&frame: &usize| Some(in_front(all.get(frame)?.as_ref()?));
             anyhow::Ok(chosen.iter().map(pose).collect())
         });
