@@ -170,17 +170,7 @@ pub fn run(args: Args) -> Result<()> {
         args: &args,
     };
     let mut rows = Vec::new();
-    let is_told = !trial.references.is_empty();
-    ensure!(
-        is_told || args.prompt != Some(Kind::Centre),
-        "--prompt centre is where the reference poses have the component, and {} has none: name their file as reference",
-        args.component
-    );
-    let wanted = |kind: &Kind| match args.prompt {
-        Some(prompt) => prompt == *kind,
-        None => is_told || *kind != Kind::Centre,
-    };
-    for kind in Kind::ALL.into_iter().filter(wanted) {
+    for kind in trial.kinds()? {
         let row = trial.row(kind)?;
         print(&row);
         rows.push(row);
@@ -236,6 +226,21 @@ struct Trial<'t> {
 }
 
 impl Trial<'_> {
+    /// The kinds of prompts that are asked for, as far as they can be derived.
+    fn kinds(&self) -> Result<Vec<Kind>> {
+        let is_told = !self.references.is_empty();
+        ensure!(
+            is_told || self.args.prompt != Some(Kind::Centre),
+            "--prompt centre is where the reference poses have the component, and {} has none: name their file as reference",
+            self.args.component
+        );
+        let wanted = |kind: &Kind| match self.args.prompt {
+            Some(prompt) => prompt == *kind,
+            None => is_told || *kind != Kind::Centre,
+        };
+        Ok(Kind::ALL.into_iter().filter(wanted).collect())
+    }
+
     fn row(&mut self, kind: Kind) -> Result<Row> {
         let all = 0..self.source.masks.len();
         let is_asked = |frame: &usize| self.args.frame.is_none_or(|asked| asked == frame + 1);
