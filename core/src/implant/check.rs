@@ -97,6 +97,8 @@ impl<'a> ImplantCheck<'a> {
     /// # Errors
     /// [`ImplantError`] says what is wrong.
     pub fn finish(self) -> Result<ImplantFile<'a>, ImplantError> {
+        // Of the header as it was read, whose sum is right: once more of the file's it would stand on the stack twice.
+        check_planes(&self.header.planes, self.header.deviation_mm)?;
         let parts = Parts::of(&self.header, self.bytes)?;
         let expected = self.header.bounds();
         let file = self.finish_intact()?;
@@ -109,7 +111,6 @@ impl<'a> ImplantCheck<'a> {
         if bounds != expected {
             return Err(ImplantError::Value("bounds"));
         }
-        check_planes(file.planes(), file.deviation_mm())?;
         if !parts.edges.are_some() || !parts.edges.fit(parts.vertices.len()) {
             return Err(ImplantError::Value("edges"));
         }
