@@ -5,21 +5,25 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::owned::OwnedModel;
+use super::surface::Bounds;
 use super::unit::{SuspectedUnit, has_knee_size, suspected_unit};
 
 /// A splinter this part of the model's radius beside all else makes its box a third longer, and moves the middle by a quarter of the radius. A judgement.
 const FAR: f64 = 0.5;
 
 impl OwnedModel {
-    /// What a person should know of the model: what is unusual of its surface and what was done about it, and a size that
-    /// is no knee component's in millimetres. Sentences without their full stops; none of a closed surface of usual size.
+    /// What a person should know of the model: what is unusual of its surface and what was done about it, what is of its shape, and a size that
+    /// is no knee component's in millimetres. Sentences without their full stops; none of a closed surface of usual shape and size.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
+        let mut remarks = self.surface_remarks();
+        remarks.extend(self.shape_remarks());
+        remarks.extend(size_remark(&self.as_model().bounds()));
+        remarks
+    }
+
+    fn surface_remarks(&self) -> Vec<String> {
         let faults = self.faults();
-        let count = |number: usize, one: &str, many: &str| match number {
-            1 => format!("1 {one}"),
-            _ => format!("{number} {many}"),
-        };
         let mut remarks = Vec::new();
         if faults.rims > 0 {
             let sides = count(
@@ -32,17 +36,21 @@ impl OwnedModel {
             ));
         }
         if faults.flipped > 0 {
-            let triangles = count(
+            remarks.push(count(
                 faults.flipped,
                 "triangle ran against the neighbours and was turned",
                 "triangles ran against the neighbours and were turned",
-            );
-            remarks.push(triangles);
+            ));
         }
         if faults.degenerate > 0 {
             let triangles = count(faults.degenerate, "triangle covers", "triangles cover");
             remarks.push(format!("{triangles} nothing; this changes nothing"));
         }
+        remarks
+    }
+
+    fn shape_remarks(&self) -> Vec<String> {
+        let mut remarks = Vec::new();
         let bodies = self.bodies();
         if bodies > 1 {
             remarks.push(format!(
@@ -56,31 +64,38 @@ impl OwnedModel {
             ));
         }
         if let Some(round) = self.as_model().revolution() {
-            let about = if round.is_ball {
-                "any axis"
-            } else {
-                "its axis"
+            let about = match round.is_ball {
+                true => "any axis",
+                false => "its axis",
             };
             remarks.push(format!(
                 "the part is round: turned about {about} it looks the same, and no frame tells that rotation"
             ));
         }
-        let bounds = self.as_model().bounds();
-        let width = 2.0 * bounds.radius;
-        if !has_knee_size(&bounds) {
-            let unit = match suspected_unit(&bounds) {
-                Some(SuspectedUnit::Metres) => ": is the file in metres?",
-                Some(SuspectedUnit::CentimetresOrInches) => {
-                    ": is the file in centimetres or inches?"
-                }
-                None => ": is it in the unit that was stated?",
-            };
-            remarks.push(format!(
-                "the model is {width:.3} mm across, which is no knee component's size in millimetres{unit} Write it again in millimetres, or every length is wrong"
-            ));
-        }
         remarks
     }
+}
+
+fn count(number: usize, one: &str, many: &str) -> String {
+    match number {
+        1 => format!("1 {one}"),
+        _ => format!("{number} {many}"),
+    }
+}
+
+fn size_remark(bounds: &Bounds) -> Option<String> {
+    if has_knee_size(bounds) {
+        return None;
+    }
+    let width = 2.0 * bounds.radius;
+    let unit = match suspected_unit(bounds) {
+        Some(SuspectedUnit::Metres) => ": is the file in metres?",
+        Some(SuspectedUnit::CentimetresOrInches) => ": is the file in centimetres or inches?",
+        None => ": is it in the unit that was stated?",
+    };
+    Some(format!(
+        "the model is {width:.3} mm across, which is no knee component's size in millimetres{unit} Write it again in millimetres, or every length is wrong"
+    ))
 }
 
 #[cfg(test)]

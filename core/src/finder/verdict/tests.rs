@@ -114,6 +114,13 @@ fn candidate(misfit_px: f64, met: f64) -> Candidate {
     }
 }
 
+/// Gives a pose a covariance that determines it.
+fn known(one: &mut Candidate) {
+    let mut information = [[0.0; 6]; 6];
+    (0..6).for_each(|k| information[k][k] = 1e6);
+    one.covariance = PoseCovariance::from_information(&information);
+}
+
 #[test]
 fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_leaves_it_open() {
     let judged = |change: fn(&mut Candidate), open: Option<usize>| {
@@ -141,11 +148,6 @@ fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_lea
             other => panic!("{other}"),
         })
     };
-    let known = |one: &mut Candidate| {
-        let mut information = [[0.0; 6]; 6];
-        (0..6).for_each(|k| information[k][k] = 1e6);
-        one.covariance = crate::pose::covariance::PoseCovariance::from_information(&information);
-    };
     let open_by_a_turn = |one: &mut Candidate| {
         let mut matrix = [[0.0; 6]; 6];
         matrix[1][1] = radians(OTHER_DEG + 0.1) * radians(OTHER_DEG + 0.1);
@@ -157,6 +159,10 @@ fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_lea
     assert_eq!(judged(|one| one.refined = None, None), Some((0.0, false)));
     assert_eq!(judged(known, Some(1)), Some((9.0, true)));
     assert_eq!(judged(known, Some(7)), Some((0.0, false)));
+}
+
+#[test]
+fn what_was_not_found_has_no_verdict_and_what_is_no_knee_is_told() {
     let none = Choice {
         index: 3,
         reason: super::super::choice::Reason::Only,
