@@ -1,11 +1,11 @@
 //! Which way a component lies in the axes of its file, as far as its shape tells.
 
 use fluoropose::joint::flange::side_by_flange;
-use fluoropose::mesh::Mesh;
 use fluoropose::mesh::anatomy::{
     AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape, field_axes,
 };
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
@@ -50,6 +50,18 @@ pub fn shape_component(vertices: &[f32], triangles: &[u32]) -> Result<Option<Str
         KneeComponent::Tibia => "tibia",
     };
     Ok(component_by_shape(&mesh).map(|component| word(component).to_owned()))
+}
+
+/// What a person should know of a model as it was read, in sentences without their full stops: holes, that it is round, a size that is no knee
+/// component's.
+///
+/// # Errors
+/// The core's sentence about the vertex or triangle at fault.
+#[wasm_bindgen(js_name = modelRemarks)]
+pub fn model_remarks(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Vec<String>, JsError> {
+    Ok(OwnedModel::new(vertices, triangles)
+        .map_err(sentence)?
+        .remarks())
 }
 
 /// What the shape of a femoral component, or of a tray, tells of its axes.

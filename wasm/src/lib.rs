@@ -28,7 +28,7 @@ mod shape;
 mod squares;
 mod working_model;
 
-pub use anatomy::{ShapeAxes, flange_side, shape_axes, shape_component};
+pub use anatomy::{ShapeAxes, flange_side, model_remarks, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use camera::{camera_doubts, search_distances};
 pub use choice::{Chosen, Surroundings, choose_pose};

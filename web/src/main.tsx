@@ -61,7 +61,7 @@ async function start(root: HTMLElement): Promise<void> {
     studio,
     assets,
     decoder: decodeWorker(),
-    shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => null),
+    shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => ({ component: null, remarks: [] })),
     checkLibrary: (library) => matcher.call('check', { library }),
     doubtsOf: (camera) => matcher.call('cameraDoubts', camera).catch(() => []),
   };

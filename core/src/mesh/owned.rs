@@ -41,12 +41,24 @@ impl OwnedModel {
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
-    pub fn new(mut vertices: Vec<f32>, mut triangles: Vec<u32>) -> Result<Self, MeshError> {
+    pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, MeshError> {
+        let drawn = Self::drawn(vertices, triangles)?;
+        let revolution = revolution(drawn.as_model().mesh());
+        Ok(Self {
+            revolution,
+            ..drawn
+        })
+    }
+
+    /// The same of a model that is drawn and nothing else: whether it is round is not looked at, which uncertainties and remarks have to know.
+    ///
+    /// # Errors
+    /// As for [`OwnedModel::new`].
+    pub fn drawn(mut vertices: Vec<f32>, mut triangles: Vec<u32>) -> Result<Self, MeshError> {
         Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
         leave_out_strays(&mut vertices, triangles.as_chunks_mut().0);
         let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
         let bounds = mesh.bounds();
-        let revolution = revolution(&mesh);
         let (mut edges, faults, mut numbers) = linked(&mesh);
         if faults.flipped > 0 {
             let corners = vertices.as_chunks().0;
@@ -60,7 +72,7 @@ impl OwnedModel {
             bounds,
             edges,
             faults,
-            revolution,
+            revolution: None,
         })
     }
 

@@ -42,7 +42,7 @@ impl Model {
     /// The core's sentence about the vertex or triangle at fault.
     #[wasm_bindgen(constructor)]
     pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Model, JsError> {
-        let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
+        let owned = OwnedModel::drawn(vertices, triangles).map_err(sentence)?;
         Ok(Self {
             projected: vec![Projected::default(); scratch_needed(&owned.as_model())],
             owned,
@@ -51,13 +51,6 @@ impl Model {
             corners: Vec::new(),
             whole: false,
         })
-    }
-
-    /// What a person should know of the model as it was read, in sentences without their full stops: holes, a size that is no
-    /// knee component's.
-    #[wasm_bindgen(getter)]
-    pub fn remarks(&self) -> Vec<String> {
-        self.owned.remarks()
     }
 
     /// Millimetres in a unit of the file, where its size is a knee component's in other units alone: one number for each of them.

@@ -30,7 +30,7 @@ import { numbersAt } from '../painting/wasm_view';
 import type { Preprocessing } from '../terms/seeing';
 import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { Picture } from '../workers/protocol/match';
-import type { DecodedFrame, ModelMesh, StatedGeometry } from '../workers/protocol/decode';
+import type { DecodedFrame, ModelMesh, ShapeFacts, StatedGeometry } from '../workers/protocol/decode';
 import type { DistortionInput, CalibrationFacts, CameraInput } from '../workers/protocol/camera';
 import type { DecodeFrame, FrameSource } from './decoding';
 import { type Held, LeasedFrames } from './leased_frames';
@@ -62,9 +62,7 @@ const BUDGET = 256 << 20;
 interface HeldModel {
   readonly mesh: ModelMesh;
   readonly model: Model;
-  /** Once somebody asked. */
-  remarks?: readonly string[];
-  readonly shape: ComponentName | null;
+  readonly shape: ShapeFacts;
 }
 
 /** Part of a canvas, its pixels. */
@@ -241,7 +239,7 @@ export class Studio {
 
   // --- Models -------------------------------------------------------------------------------------------------
 
-  addModel(sha256: string, mesh: ModelMesh, shape: ComponentName | null): void {
+  addModel(sha256: string, mesh: ModelMesh, shape: ShapeFacts): void {
     if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, shape, model: new Model(mesh.vertices, mesh.triangles) });
   }
 
@@ -251,7 +249,7 @@ export class Studio {
 
   /** The component that a model has the shape of; null where that does not tell, or it is not here. */
   shapeOf(sha256: string): ComponentName | null {
-    return this.#models.get(sha256)?.shape ?? null;
+    return this.#models.get(sha256)?.shape.component ?? null;
   }
 
   /**
@@ -261,8 +259,7 @@ export class Studio {
   remarksOn(sha256: string): readonly string[] {
     const held = this.#models.get(sha256);
     if (!held) return [];
-    held.remarks ??= [...(held.mesh.notes ?? []), ...held.model.remarks];
-    return held.remarks;
+    return [...(held.mesh.notes ?? []), ...held.shape.remarks];
   }
 
   /** Millimetres in a unit of a model's file, where its size is a knee component's in other units alone. */

@@ -2,9 +2,8 @@ import { Assets } from '../document/assets';
 import type { Job, Store } from '../document/store';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
-import type { ComponentName } from '../terms/component';
 import type { CameraInput } from '../workers/protocol/camera';
-import type { DecodeProtocol, ModelMesh } from '../workers/protocol/decode';
+import type { DecodeProtocol, ModelMesh, ShapeFacts } from '../workers/protocol/decode';
 import type { Studio } from '../films/studio';
 
 /** What the jobs of the page share. */
@@ -13,8 +12,7 @@ export interface Services {
   readonly studio: Studio;
   readonly assets: Assets;
   readonly decoder: Bridge<DecodeProtocol>;
-  /** The component that a model has the shape of; null where that does not tell. */
-  readonly shapeOf: (mesh: ModelMesh) => Promise<ComponentName | null>;
+  readonly shapeOf: (mesh: ModelMesh) => Promise<ShapeFacts>;
   /** Throws the core's sentence for a library that is damaged. */
   readonly checkLibrary: (library: Uint8Array<ArrayBuffer>) => Promise<null>;
   /** What is unusual of a camera, sentences without their full stops. */

@@ -18,7 +18,7 @@ describe('the files of work that comes back', () => {
       studio,
       assets: { get: (sha256: string) => (sha256 === 't' ? asset : undefined), check: async () => true },
       decoder: { call: async () => ({ vertices: new Float64Array(), triangles: new Uint32Array() }) },
-      shapeOf: async () => null,
+      shapeOf: async () => ({ component: null, remarks: [] }),
     };
     let drawn: readonly string[] = [];
     store.subscribe(() => (drawn = [...held]));
@@ -58,6 +58,6 @@ function withDamagedFemur() {
     check: async ({ sha256 }: { sha256: string }) => sha256 !== 'femur',
   };
   const studio = { meshOf: () => null, addModel: (sha256: string) => void held.push(sha256) };
-  const services = { store, assets, studio, decoder: { call: async () => ({}) }, shapeOf: async () => null } as unknown as Services;
+  const services = { store, assets, studio, decoder: { call: async () => ({}) }, shapeOf: async () => ({ component: null, remarks: [] }) } as unknown as Services;
   return { store, services, held };
 }

@@ -18,7 +18,7 @@ function bench() {
   const held = new Map<string, unknown>([['metres', MESH]]);
   const studio = { meshOf: (sha256: string) => held.get(sha256) ?? null, addModel: (sha256: string, mesh: unknown) => void held.set(sha256, mesh) };
   const decoder = { call: async (_: string, { bytes }: { bytes: Uint8Array<ArrayBuffer> }) => bytes };
-  const services = { store, studio, decoder, assets: new Assets(), shapeOf: async () => null } as unknown as Services;
+  const services = { store, studio, decoder, assets: new Assets(), shapeOf: async () => ({ component: null, remarks: [] }) } as unknown as Services;
   store.perform(setModel('tibia', { name: 'tray.size 4.ply', sha256: 'metres' }));
   return { store, services, held };
 }

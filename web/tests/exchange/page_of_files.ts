@@ -39,7 +39,7 @@ export function pageOfFiles(studio: object = {}) {
     shapeOf: () => null,
     ...studio,
   };
-  const others = { decoder: { call }, shapeOf: async () => null, checkLibrary: async () => null, doubtsOf: async () => [] };
+  const others = { decoder: { call }, shapeOf: async () => ({ component: null, remarks: [] }), checkLibrary: async () => null, doubtsOf: async () => [] };
   const services = { store, assets, studio: stands, ...others } as unknown as Services;
   const open = (...files: Incoming[]) => openFiles(services, files);
   /** Holds the frames of a file back; returns what lets them go on. */

@@ -1,4 +1,4 @@
-import { cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, modelRemarks, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
@@ -41,7 +41,7 @@ serve<PoseProtocol>({
   shape: async ({ mesh }) => {
     await ready;
     const told = componentByShape(mesh.vertices, mesh.triangles);
-    return COMPONENT_NAMES.find((component) => component === told) ?? null;
+    return { component: COMPONENT_NAMES.find((component) => component === told) ?? null, remarks: modelRemarks(mesh.vertices, mesh.triangles) };
   },
   cameraDoubts: async ({ text, width, height }) => {
     await ready;

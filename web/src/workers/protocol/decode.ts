@@ -1,3 +1,4 @@
+import type { ComponentName } from '../../terms/component';
 import type { FramePixels } from './frame_pixels';
 
 export interface ModelMesh {
@@ -32,6 +33,14 @@ export interface StatedGeometry {
   readonly rate: number | null;
   /** The file's place among those of its series. */
   readonly place: number | null;
+}
+
+/** What a model's surface and shape tell. */
+export interface ShapeFacts {
+  /** The component that it has the shape of; null where that does not tell. */
+  readonly component: ComponentName | null;
+  /** What a person should know of it, sentences without their full stops. */
+  readonly remarks: readonly string[];
 }
 
 export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'study' | 'video' | 'unknown';

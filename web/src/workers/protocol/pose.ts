@@ -6,7 +6,7 @@ import type { CameraInput } from './camera';
 import type { HandProtocol } from './by_hand';
 import type { JointProtocol } from './joint';
 import type { OnFilmProtocol } from './film';
-import type { ModelMesh } from './decode';
+import type { ModelMesh, ShapeFacts } from './decode';
 import type { LibraryFacts } from './library';
 import type { Choice, Match, MatchInput, Refined, Surroundings } from './match';
 import type { OneClickProtocol } from './one_click';
@@ -34,8 +34,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   check: { input: { library: Uint8Array<ArrayBuffer> }; output: null; progress: never };
   /** A copy of an open library's bytes. */
   library: { input: { component: ComponentName }; output: Uint8Array<ArrayBuffer>; progress: never };
-  /** The component that a model has the shape of; null where that does not tell. */
-  shape: { input: { mesh: ModelMesh }; output: ComponentName | null; progress: never };
+  /** What a model's surface and shape tell. */
+  shape: { input: { mesh: ModelMesh }; output: ShapeFacts; progress: never };
   /** What is unusual of the camera of a calibration: sentences without their full stops. */
   cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'>; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */
