@@ -44,23 +44,38 @@ pub fn size_taken(calibration: &Calibration, (width, height): (usize, usize)) ->
     ))
 }
 
+/// Frames are as large as this where nobody says more, pixels.
+const USUAL_SIZE: (usize, usize) = (1024, 1024);
+
 /// The camera of a calibration for frames of a size; a camera matrix has its own.
 ///
 /// # Errors
-/// Those of [`Calibration::camera`].
-pub fn camera_for(calibration: &Calibration, Pair([width, height]): Pair) -> Result<Camera> {
+/// Those of [`Calibration::camera`]; a size that is not in whole pixels, or is another than that of the camera matrix.
+pub fn camera_for(calibration: &Calibration, frame: Option<Pair>) -> Result<Camera> {
+    let given = frame.map(whole_sides).transpose()?;
     let (width, height) = match *calibration {
-        Calibration::CameraMatrix { size, .. } => size,
-        _ => {
-            let are_whole = [width, height].iter().all(|side| side.fract() == 0.0);
+        Calibration::CameraMatrix { size, .. } => {
+            let (width, height) = given.unwrap_or(size);
             ensure!(
-                are_whole,
-                "a frame of {width},{height} pixels has no whole sides"
+                (width, height) == size,
+                "--frame says {width} x {height} pixels, and the calibration is a camera matrix of frames of {} x {}: leave --frame out, or give the calibration of those frames",
+                size.0,
+                size.1
             );
-            (width as usize, height as usize)
+            size
         }
+        _ => given.unwrap_or(USUAL_SIZE),
     };
     Ok(calibration.camera(width, height)?)
+}
+
+fn whole_sides(Pair([width, height]): Pair) -> Result<(usize, usize)> {
+    let are_whole = [width, height].iter().all(|side| side.fract() == 0.0);
+    ensure!(
+        are_whole,
+        "a frame of {width},{height} pixels has no whole sides"
+    );
+    Ok((width as usize, height as usize))
 }
 
 #[cfg(test)]
@@ -70,10 +85,24 @@ mod tests {
     #[test]
     fn a_frame_has_whole_sides() {
         let calibration = Calibration::parse("JT_INTCALIB\n1000\n0\n0\n0.3\n").expect("valid");
-        let of = |width| camera_for(&calibration, Pair([width, 48.0]));
+        let of = |width| camera_for(&calibration, Some(Pair([width, 48.0])));
         assert_eq!(of(64.0).expect("whole").width(), 64);
         for width in [64.5, f64::NAN, f64::INFINITY, -64.0] {
             assert!(of(width).is_err(), "{width}");
         }
+        assert_eq!(camera_for(&calibration, None).expect("usual").width(), 1024);
+    }
+
+    #[test]
+    fn a_camera_matrix_is_of_frames_of_its_own_size() {
+        let text = "image size\n640,480\n\ncamera matrix\n2000,0,320\n0,2000,240\n0,0,1\n";
+        let calibration = Calibration::parse(text).expect("valid");
+        let of = |frame: Option<[f64; 2]>| camera_for(&calibration, frame.map(Pair));
+        for frame in [None, Some([640.0, 480.0])] {
+            let camera = of(frame).expect("its own");
+            assert_eq!((camera.width(), camera.height()), (640, 480));
+        }
+        let told = of(Some([1024.0, 1024.0])).expect_err("other frames");
+        assert!(told.to_string().contains("640 x 480"), "{told}");
     }
 }

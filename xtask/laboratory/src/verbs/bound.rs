@@ -38,9 +38,9 @@ pub struct Args {
     /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
     #[arg(long)]
     calibration: PathBuf,
-    /// Width and height of the frames, pixels; a camera matrix has its own
-    #[arg(long, value_name = "W,H", default_value = "1024,1024")]
-    frame: Pair,
+    /// Width and height of the frames, pixels; 1024,1024 if not given, but a camera matrix has its own
+    #[arg(long, value_name = "W,H")]
+    frame: Option<Pair>,
     /// A pose: x, y, z (mm), then rotation about z, x, y (degrees)
     #[arg(
         long,

@@ -43,9 +43,9 @@ pub struct Args {
     /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
     #[arg(long)]
     calibration: PathBuf,
-    /// Width and height of the frames, pixels; only recorded, but poses are tried in them with --for firmware. A camera matrix has its own
-    #[arg(long, value_name = "W,H", default_value = "1024,1024")]
-    frame: Pair,
+    /// Width and height of the frames, pixels; only recorded, but poses are tried in them with --for firmware. 1024,1024 if not given, but a camera matrix has its own
+    #[arg(long, value_name = "W,H")]
+    frame: Option<Pair>,
     #[command(flatten)]
     views: ViewOptions,
     /// What it is for, where not for the page

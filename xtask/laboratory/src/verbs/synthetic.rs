@@ -102,9 +102,9 @@ pub struct Args {
     /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
     #[arg(long, required_unless_present_any = ["films", "activity", "knees"])]
     calibration: Option<PathBuf>,
-    /// Width and height of the frames, pixels
-    #[arg(long, value_name = "W,H", default_value = "1024,1024")]
-    frame: Pair,
+    /// Width and height of the frames, pixels; 1024,1024 if not given, but a camera matrix has its own
+    #[arg(long, value_name = "W,H")]
+    frame: Option<Pair>,
     /// Number of poses
     #[arg(long, default_value_t = 150, value_parser = at_least_1)]
     poses: usize,
