@@ -31,4 +31,4 @@ pub use model::{FilmConstants, FilmModel};
 pub use pool::FilmPool;
 pub use profile::FilmProfile;
 pub use sharpening::{MetalContrast, Sharpening};
-pub use squares::SquareChoice;
+pub use squares::{MOST_BLUR_PX, SquareChoice};

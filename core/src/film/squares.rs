@@ -8,6 +8,8 @@
 //! them gives it, and its camera, in such squares: [`crate::image::frame::Frame::reduce`], [`crate::camera::Camera::reduced`].
 //! Poses are in millimetres, and are the same.
 
+use super::model::MOST_BLUR;
+
 /// Sides that are tried, one after the other, pixels of the file.
 const TRIED: [usize; 2] = [2, 4];
 /// A film is as well read in squares in whose sides it is blurred so much. In squares of two pixels films that are sharp to those have 0.8 to 1.0, one of
@@ -15,6 +17,9 @@ const TRIED: [usize; 2] = [2, 4];
 const ENOUGH_BLUR: f64 = 1.1;
 /// Larger ones are tried where the blur is so many sides of those that are well: where they halve it to little more than is enough, trays are read worse.
 const MORE_BLUR: f64 = 2.0;
+
+/// Most blur that a film can be read with, standard deviation in pixels of its file: more than this many sides of the largest squares is taken for that.
+pub const MOST_BLUR_PX: f64 = MOST_BLUR * TRIED[TRIED.len() - 1] as f64;
 
 /// Finds the squares that a film is read in: profiles of frames with known poses are read in those that are [wanted](Self::wanted), and
 /// what they tell is [taken](Self::take), until none are wanted.

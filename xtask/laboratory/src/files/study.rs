@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
-use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm};
+use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm, MOST_BLUR_PX};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::suspected_unit;
 use fluoropose_phantom::implant::Side;
@@ -24,9 +24,6 @@ use super::text::read_text;
 
 /// So many letters in which a name differs may be slips.
 const NEARLY: usize = 2;
-
-/// A film is read in squares of 4 pixels at most, and a blur of more than 3 of their sides is taken for that.
-const MOST_BLUR_PX: f64 = 12.0;
 
 /// A sequence of frames with one or more components.
 #[derive(Debug, Deserialize)]
@@ -322,6 +319,22 @@ impl Study {
             ))
         };
         others.filter_map(remark).collect()
+    }
+
+    /// The component of a name.
+    ///
+    /// # Errors
+    /// Names those that there are.
+    pub fn component(&self, name: &str) -> Result<&Component> {
+        let found = self.components.iter().find(|one| one.name == name);
+        found.with_context(|| {
+            let names = self.components.iter().map(|one| one.name.as_str());
+            let names: Vec<&str> = names.collect();
+            format!(
+                "the study has no component {name}: it has {}",
+                names.join(", ")
+            )
+        })
     }
 
     /// Components whose attenuation does not go with what is stated of the film: a sentence each, without its full stop.

@@ -181,15 +181,7 @@ pub fn run(args: Args) -> Result<()> {
 /// The component, and the folder of its masks.
 fn asked_for<'s>(study: &'s Study, args: &Args) -> Result<(&'s Component, &'s Path)> {
     let (name, source) = (&args.component, &args.source);
-    let component = study.components.iter().find(|one| one.name == *name);
-    let component = component.with_context(|| {
-        let names = study.components.iter().map(|one| one.name.as_str());
-        let names: Vec<&str> = names.collect();
-        format!(
-            "the study has no component {name}: it has {}",
-            names.join(", ")
-        )
-    })?;
+    let component = study.component(name)?;
     let masks = component.masks.get(source).with_context(|| {
         let sources: Vec<&str> = component.masks.keys().map(String::as_str).collect();
         let sources = if sources.is_empty() {

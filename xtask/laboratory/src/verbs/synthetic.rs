@@ -33,29 +33,16 @@ pub use refusal::{Kind, Refusal, measure_refusal};
 // that is missing and in conflict with another one on the line the command line's parser says nothing.
 
 /// Options of the protocol, which films have no use for.
-const OF_THE_PROTOCOL: [&str; 20] = [
+const OF_THE_PROTOCOL: [&str; 7] = [
     "model",
     "calibration",
     "frame",
     "poses",
-    "method",
-    "start_off",
-    "biplane",
     "any_view",
     "refusal",
-    "nominal",
-    "x",
-    "y",
     "distance",
-    "area",
-    "size",
-    "jitter",
-    "correlation",
-    "occlude",
-    "unmarked",
-    "noise_seed",
 ];
-/// Those of it that poses from anywhere have none for: all directions, one method, outlines of their own.
+/// Others of it, which poses from anywhere have no use for either: all directions, one method, outlines of their own.
 const OF_THE_LIBRARY: [&str; 13] = [
     "biplane",
     "start_off",

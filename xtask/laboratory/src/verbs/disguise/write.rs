@@ -47,7 +47,8 @@ pub fn disguise(file: &Path, plan: &Plan, out: &Path) -> Result<Lens> {
     let chosen = plan.frames.chosen(film.count());
     ensure!(!chosen.is_empty(), "no frame is left of {}", film.count());
     plan.check()?;
-    check_only(&study, plan)?;
+    let only = plan.models.only.as_deref();
+    only.map(|name| study.component(name)).transpose()?;
     check_out(file, &study, plan, chosen.len(), out)?;
     let known: Vec<Known<'_>> = study
         .components
@@ -81,20 +82,6 @@ pub fn disguise(file: &Path, plan: &Plan, out: &Path) -> Result<Lens> {
     write_text(&out.join(STATED), &toml::to_string(plan)?)?;
     write_text(&out.join("study.toml"), &text)?;
     Ok(lens)
-}
-
-/// Refuses a plan that leaves none of the study's components.
-fn check_only(study: &Study, plan: &Plan) -> Result<()> {
-    let names = study.components.iter().map(|one| one.name.as_str());
-    let known: Vec<&str> = names.collect();
-    let only = plan.models.only.as_deref();
-    ensure!(
-        only.is_none_or(|only| known.contains(&only)),
-        "the study has no component {}: it has {}",
-        only.unwrap_or_default(),
-        known.join(", ")
-    );
-    Ok(())
 }
 
 /// Refuses a folder in which something of others stands: a disguise is told by the file that states it.

@@ -22,7 +22,7 @@ pub(super) struct ActivityArgs {
         requires = "out",
         group = "drawn",
         conflicts_with_all = ["films", "json"],
-        conflicts_with_all = super::OF_THE_PROTOCOL
+        conflicts_with_all = super::OF_THE_PROTOCOL, conflicts_with_all = super::OF_THE_LIBRARY
     )]
     pub(super) activity: Option<Activity>,
     /// With --activity and --knees: folder to write to; made if absent

@@ -41,7 +41,7 @@ const PARTS: [&str; 2] = ["femur", "tibia"];
 #[derive(clap::Args)]
 pub(super) struct FilmArgs {
     /// Grey films of the built-in implants, of several kinds: both components from one click, and refined from the truth
-    #[arg(long, group = "filmed", conflicts_with_all = super::OF_THE_PROTOCOL)]
+    #[arg(long, group = "filmed", conflicts_with_all = super::OF_THE_PROTOCOL, conflicts_with_all = super::OF_THE_LIBRARY)]
     pub(super) films: bool,
     /// With --films: films of each kind
     #[arg(long, default_value_t = 25, value_parser = at_least_1, requires = "filmed")]

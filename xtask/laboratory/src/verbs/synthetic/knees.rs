@@ -52,7 +52,7 @@ pub(super) struct KneeArgs {
         requires_all = ["implants", "out"],
         conflicts_with = "films",
         conflicts_with_all = DRAWN_BY_SEED,
-        conflicts_with_all = super::OF_THE_PROTOCOL
+        conflicts_with_all = super::OF_THE_PROTOCOL, conflicts_with_all = super::OF_THE_LIBRARY
     )]
     pub(super) knees: Option<Seeds>,
     /// With --knees: follow each film from nothing, and compare it with its truth

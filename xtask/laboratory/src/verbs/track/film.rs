@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use fluoropose::follow::{Anchor, Cell, Conclusion, State, frames_to_ask};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::EulerPose;
@@ -232,13 +232,7 @@ fn check_written(request: &Request, study: &Study) -> Result<()> {
 /// Whether the study has the components that are asked for.
 fn check_components(request: &Request, study: &Study) -> Result<()> {
     for name in request.components() {
-        let names = study.components.iter().map(|one| one.name.as_str());
-        let known: Vec<&str> = names.collect();
-        let others = known.join(", ");
-        ensure!(
-            known.contains(&name),
-            "the study has no component {name}: it has {others}"
-        );
+        study.component(name)?;
     }
     Ok(())
 }
