@@ -5,8 +5,9 @@ import type { ComponentName } from '../terms/component';
 import { addressOf } from './address';
 import { openFiles } from './opener';
 import type { Incoming } from './incoming';
-import type { Services } from '../jobs/services';
+import { asJob, type Services } from '../jobs/services';
 import { texts } from '../texts/texts';
+import { Aborted } from '../workers/bridge';
 
 const FOLDER = 'demo/';
 
@@ -30,14 +31,9 @@ const readManifest: Reader<Manifest> = object<Manifest>({
 export async function openDemonstration(services: Services): Promise<void> {
   const { store } = services;
   const untouched = store.doc === EMPTY_DOC;
-  store.say('info', texts.said.demonstration);
-  const manifest = readManifest(await (await fetched('demo.json')).json(), 'demo.json');
-  const names = [manifest.calibration, ...manifest.frames];
-  const files = await Promise.all([
-    ...names.map((name) => incoming(name)),
-    incoming(manifest.models.femur, 'femur'),
-    incoming(manifest.models.tibia, 'tibia'),
-  ]);
+  const abort = new AbortController();
+  const job = { title: texts.said.demonstration, unit: '', total: 0, cancel: () => abort.abort(new Aborted()) };
+  const { manifest, files } = await asJob(store, job, () => fetchedAll(abort.signal));
   if (!(await openFiles(services, files))) return;
   store.perform(commands.rename(manifest.name));
   store.perform(commands.setSide(manifest.side));
@@ -45,13 +41,19 @@ export async function openDemonstration(services: Services): Promise<void> {
   if (untouched) store.settle();
 }
 
-async function incoming(name: string, component?: ComponentName): Promise<Incoming> {
-  const blob = await (await fetched(name)).blob();
-  return { name: name.split('/').at(-1) ?? name, blob, component };
+async function fetchedAll(signal: AbortSignal): Promise<{ readonly manifest: Manifest; readonly files: readonly Incoming[] }> {
+  const manifest = readManifest(await (await fetched('demo.json', signal)).json(), 'demo.json');
+  const { calibration, frames, models } = manifest;
+  const incoming = async (name: string, component?: ComponentName): Promise<Incoming> => {
+    const blob = await (await fetched(name, signal)).blob();
+    return { name: name.split('/').at(-1) ?? name, blob, component };
+  };
+  const others = [calibration, ...frames].map((name) => incoming(name));
+  return { manifest, files: await Promise.all([...others, incoming(models.femur, 'femur'), incoming(models.tibia, 'tibia')]) };
 }
 
-async function fetched(name: string): Promise<Response> {
-  const response = await fetch(addressOf(FOLDER + name));
+async function fetched(name: string, signal: AbortSignal): Promise<Response> {
+  const response = await fetch(addressOf(FOLDER + name), { signal });
   if (!response.ok) throw new Error(texts.said.notFetched(name, response.status));
   return response;
 }
