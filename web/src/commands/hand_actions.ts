@@ -14,14 +14,18 @@ import { texts } from '../texts/texts';
 import { handSituationOf, placedPose } from './model_in_hand';
 import { degreesOf, type LandscapeCell } from '../results/landscape';
 
+/** Presses so far apart are steps of their own, ms. */
+const PAUSE = 1000;
+
 /** What keys and buttons do with a pose that is set by hand. */
 export class HandActions {
   readonly #services: Services;
   readonly #store: Store;
   readonly #fromHere: FromHere;
   readonly #landscapes: Landscapes;
-  /** Nudges of one key held down are one step back. */
+  /** Nudges of one key held down, or pressed again at once, are one step back. */
   #held = 0;
+  #last: { readonly field: keyof PoseNumbers; readonly at: number } | null = null;
 
   constructor(services: Services, fromHere: FromHere, landscapes: Landscapes) {
     this.#services = services;
@@ -145,7 +149,10 @@ export class HandActions {
     }
     const steps = hand[hand.grain];
     const by = isTurn(field) ? steps.turn : field === 'z' ? steps.depth : steps.plane;
-    if (!repeated) this.#held++;
+    const at = performance.now();
+    const again = this.#last?.field === field && at - this.#last.at < PAUSE;
+    if (!repeated && !again) this.#held++;
+    this.#last = { field, at };
     return this.#change(field, sign * by, `nudge-${field}-${this.#held}`);
   }
 
@@ -160,7 +167,7 @@ export class HandActions {
     }
     const pose = nudged(situation.pose, field, by, situation.middle, situation.locks);
     // In front of the camera it stays.
-    if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, mergeKey));
+    if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, `${place.frameId} ${place.component} ${mergeKey}`));
     return true;
   }
 }

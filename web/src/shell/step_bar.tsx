@@ -5,7 +5,8 @@ import { texts } from '../texts/texts';
 /** How far the work is, from opening files to the joint. */
 export function StepBar({ state }: { state: State }) {
   const doc = state.history.present;
-  const { step } = standingOf(doc);
+  // What is corrected while checking frees frames for following, which is no step back.
+  const step = state.ui.checking ? 'check' : standingOf(doc).step;
   const shown: readonly Step[] = doc.frames.length > 1 ? STEPS : STEPS.filter((one) => one !== 'follow');
   const { region, names, count } = texts.first.steps;
   return (
