@@ -51,8 +51,7 @@ export async function exported(page, kind, ...choices) {
   await openExport(page, kind, ...choices);
   const saved = await savedFile(page);
   const sheet = exportSheet(page);
-  // Who saved the session is done.
-  if (kind !== 'Session') await sheet.press('Escape');
+  await sheet.press('Escape');
   await sheet.waitFor({ state: 'detached' });
   return saved;
 }

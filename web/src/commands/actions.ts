@@ -336,7 +336,7 @@ export class Actions {
     const { parts, without } = await saveSession(this.#services, includeFiles);
     download(parts, `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
-    store.show({ savedAt: Date.now(), popover: null });
+    store.show({ savedAt: Date.now() });
     if (without.length > 0) store.say('error', texts.said.sessionSavedWithout(texts.listed(without)));
     else store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
   }

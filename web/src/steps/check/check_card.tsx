@@ -78,10 +78,14 @@ function Doubtful({ state, result, counted: { at, of } }: { state: State; result
   );
 }
 
-/** Whether a rival leaves less in this frame than the pose that is chosen. */
+/** Whether a rival leaves less in this frame than the pose that is chosen, by what stands under the pictures. */
 function leavesMore({ candidates, chosen }: Posed): boolean {
   const own = misfitOf(candidates[chosen]);
-  return own !== null && candidates.some((one) => (misfitOf(one) ?? own) < own);
+  return own !== null && candidates.some((one) => Number(shownMisfit(misfitOf(one) ?? own)) < Number(shownMisfit(own)));
+}
+
+function shownMisfit(misfit: number): string {
+  return misfit.toFixed(2);
 }
 
 function misfitOf(candidate: Candidate | undefined): number | null {
@@ -183,7 +187,7 @@ function Rival({ index, candidate, chosen, beside, scene, motion }: RivalProps) 
     >
       <RivalPicture scene={scene} pose={candidate.pose} beside={beside} />
       <span class="check-rival-name">
-        <kbd aria-hidden="true">{index + 1}</kbd> {misfit === null ? '' : words.misfit(misfit.toFixed(2))}
+        <kbd aria-hidden="true">{index + 1}</kbd> {misfit === null ? '' : words.misfit(shownMisfit(misfit))}
       </span>
       {beside && <span>{words.away(formatNumber(turnBetween(beside, candidate.pose), 0))}</span>}
       {(angles ? words.jointShort(...angles) : []).map((angle) => (
@@ -195,7 +199,8 @@ function Rival({ index, candidate, chosen, beside, scene, motion }: RivalProps) 
   );
 }
 
-const SIDE = 110;
+/** Pixels of a rival's picture, which a card shows at three sizes. */
+const SIDE = 220;
 
 function RivalPicture({ scene, pose, beside }: { scene: RivalScene | null; pose: PoseNumbers; beside: PoseNumbers | null }) {
   const { studio } = useApp().services;

@@ -36,8 +36,8 @@ export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: Riva
   context.clearRect(0, 0, canvas.width, canvas.height);
   context.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
   context.drawImage(whole.canvas, 0, 0);
-  drawBorder(context, other, 0.75 / scale, BESIDE);
-  drawBorder(context, border, 1.5 / scale, light);
+  drawBorder(context, other, 1.5 / scale, BESIDE);
+  drawBorder(context, border, 3 / scale, light);
 }
 
 /** Where something may lie on the frame. */
