@@ -35,6 +35,11 @@ pub enum Problem {
         /// What the content looks like, as a noun.
         found: &'static str,
     },
+    /// A model in a form that is not read.
+    #[error(
+        "this is a model in a form that is not read. Export the part from the program that made it as a surface mesh, in mm: STL, OBJ or PLY"
+    )]
+    OtherModel,
     /// The content breaks the rules of its format or ends too early.
     #[error("this {format} file is damaged or incomplete: {detail}. Copy or export it again")]
     Damaged {

@@ -48,6 +48,7 @@ fn decode(bytes: Cow<'_, [u8]>, name: &str) -> Result<Model, Problem> {
         Kind::Obj => obj::read(&bytes)?,
         Kind::Ply => ply::read(&bytes)?,
         _ if bytes.is_empty() => return Err(Problem::Empty),
+        Kind::OtherModel => return Err(Problem::OtherModel),
         other => {
             return Err(Problem::NotAModel {
                 found: other.noun(),

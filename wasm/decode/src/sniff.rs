@@ -24,6 +24,8 @@ pub enum Kind {
     Obj,
     /// A PLY model.
     Ply,
+    /// A model in a form that is not read: STEP, IGES, Parasolid, 3MF, glTF, VTK and the like.
+    OtherModel,
     /// Poses (`JT_EULER_312`, `JTA_EULER_KINEMATICS`, `JTA_EULER_POSE`).
     Jts,
     /// A calibration (`JT_INTCALIB`).
@@ -49,7 +51,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
+    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
     /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
@@ -61,6 +63,7 @@ impl Kind {
             Self::Stl => "stl",
             Self::Obj => "obj",
             Self::Ply => "ply",
+            Self::OtherModel => "other-model",
             Self::Jts => "jts",
             Self::Calibration => "calibration",
             Self::Mayacam => "mayacam",
@@ -86,6 +89,7 @@ impl Kind {
             Self::Stl => "an STL model",
             Self::Obj => "an OBJ model",
             Self::Ply => "a PLY model",
+            Self::OtherModel => "a model in another form",
             Self::Jts => "a pose file",
             Self::Calibration => "a calibration",
             Self::Mayacam => "a camera matrix",
@@ -114,7 +118,7 @@ const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POS
 const STUDY: &str = "[[component]]";
 
 /// First bytes that belong to one kind alone.
-const SIGNATURES: [(&[u8], Kind); 12] = [
+const SIGNATURES: [(&[u8], Kind); 17] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
     (&crate::jpeg2000::CODESTREAM, Kind::Jpeg2000),
@@ -127,6 +131,18 @@ const SIGNATURES: [(&[u8], Kind); 12] = [
     (b"ply\n", Kind::Ply),
     (b"ply\r", Kind::Ply),
     (b"JT_INTCALIB", Kind::Calibration),
+    // STEP, Parasolid, glTF, VTK, OFF.
+    (b"ISO-10303-21", Kind::OtherModel),
+    (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", Kind::OtherModel),
+    (b"glTF", Kind::OtherModel),
+    (b"# vtk DataFile", Kind::OtherModel),
+    (b"OFF\n", Kind::OtherModel),
+];
+
+/// Files of CAD programs and meshes in forms that are not read, by their names: many are archives inside, or have no mark of their own.
+const OTHER_MODELS: [&str; 22] = [
+    "stp", "step", "igs", "iges", "x_t", "x_b", "sldprt", "sldasm", "catpart", "ipt", "f3d", "3dm",
+    "3mf", "amf", "glb", "gltf", "off", "vtk", "vtp", "wrl", "fbx", "dae",
 ];
 
 /// What a file is. The content decides. The extension of `name` is used only where the content fits nothing or is too short
@@ -230,6 +246,7 @@ fn by_name(name: &str) -> Kind {
         Some("mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" | "mpg" | "mpeg" | "wmv") => {
             Kind::Video
         }
+        Some(other) if OTHER_MODELS.contains(&other) => Kind::OtherModel,
         _ => Kind::Unknown,
     }
 }

@@ -61,7 +61,7 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   if (aside) work.follow();
   await tellMismatches(services, meant, failed);
   // Of a whole folder what is not recognised is told in one sentence.
-  const strangers = meant.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
+  const strangers = meant.length > 1 ? others.filter((file) => isStranger(file, others)) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
   await openSingle(services, work, single, outcome);
   if (frames.length > 0) await openFrames(services, work, frames, outcome);
@@ -83,6 +83,11 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   offerStatedOrder(services, frames.length > 0);
   askWhichPoses(services, work, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** A model in another form is none where it lies beside those that were exported from it. */
+function isStranger({ kind, blob }: Recognised, among: readonly Recognised[]): boolean {
+  return kind === 'unknown' ? blob.size > 0 : kind === 'other-model' && among.some((file) => file.kind === 'model');
 }
 
 /** A session has models that others stand beside. */
@@ -211,7 +216,7 @@ function openAsFrames(services: Services, files: readonly Incoming[]): Promise<b
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
 const ORDER: readonly FileKind[] = [
-  'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
+  'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'other-model', 'unknown',
 ];
 
 /** So many sentences of what failed fit the line, which shows one notice; the list of messages has them all. */
@@ -242,6 +247,8 @@ async function openOne(services: Services, work: WorkOnView, file: Recognised, r
       return openSessionAs(services, work, file, remarks);
     case 'distortion':
       return openDistortion(services, work, file);
+    case 'other-model':
+      throw new Error(later.opening.otherModel);
     default:
       if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
       throw new Error(ARCHIVE.test(file.name) ? later.opening.archive : texts.said.notRecognised);

@@ -16,6 +16,17 @@ describe('one file of many', () => {
   });
 });
 
+describe('a model in another form', () => {
+  it('is to be exported, but where what was exported lies beside it', async () => {
+    const { said, open } = pageOfFiles();
+    await open(at('/f1.png'), at('/femur.step'));
+    expect(said()).toMatch(/femur\.step: this is a model in a form that is not read; export the part/);
+    const another = pageOfFiles();
+    await another.open(at('/f1.png'), at('/femur.stl'), at('/femur.step'));
+    expect(another.said()).toMatch(/left out: femur\.step\.$/);
+  });
+});
+
 describe('a model that was written again in millimetres', () => {
   it('is known when its file comes again, also after a session, and what was followed with it stays', async () => {
     const { store, services, open } = pageOfFiles();

@@ -5,7 +5,7 @@ import type { Incoming } from '../../src/exchange/incoming';
 import { openFiles } from '../../src/exchange/opener';
 import type { Services } from '../../src/jobs/services';
 
-const KINDS: Readonly<Record<string, string>> = { toml: 'study', txt: 'calibration', stl: 'model', png: 'frames', jts: 'poses' };
+const KINDS: Readonly<Record<string, string>> = { toml: 'study', txt: 'calibration', stl: 'model', step: 'other-model', png: 'frames', jts: 'poses' };
 const FRAME = { width: 8, height: 8, pixels: new Uint8Array(64), window: null, geometry: null };
 
 interface Progress {

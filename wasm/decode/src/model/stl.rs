@@ -72,8 +72,9 @@ fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
     let text = String::from_utf8_lossy(bytes).to_ascii_lowercase();
     let mut raw = Raw::default();
     let mut solid: Option<String> = None;
-    for line in text.lines() {
+    for (number, line) in text.lines().enumerate() {
         let line = line.trim();
+        check_corner(number + 1, line)?;
         match (line.split_ascii_whitespace().next(), &mut solid) {
             (None, _) => {}
             // The library wants a name; names are of no use here and may be in any encoding.
@@ -97,6 +98,27 @@ fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
     match solid {
         Some(_) => Err(Problem::damaged(FORMAT, "it ends before the word endsolid")),
         None => Ok(raw),
+    }
+}
+
+/// The library does not say where a corner has something else than three numbers.
+fn check_corner(number: usize, line: &str) -> Result<(), Problem> {
+    let mut words = line.split_ascii_whitespace();
+    if words.next() != Some("vertex") {
+        return Ok(());
+    }
+    match words.find(|word| word.parse::<f32>().is_err()) {
+        None => Ok(()),
+        Some(word) => {
+            let shown: String = word.chars().take(40).collect();
+            let comma = match word.contains(',') {
+                true => "; numbers want a point, not a comma",
+                false => "",
+            };
+            let detail =
+                format!("line {number} has '{shown}' where a coordinate is expected{comma}");
+            Err(Problem::damaged(FORMAT, detail))
+        }
     }
 }
 

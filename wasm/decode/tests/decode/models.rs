@@ -85,6 +85,38 @@ fn several_solids_become_one_model() {
 }
 
 #[test]
+fn a_coordinate_that_is_no_number_is_told_with_its_line() {
+    let refused = |text: String| decode_model(text.into_bytes(), "knee.stl").unwrap_err();
+    let text = stl_ascii();
+    let line = 1 + text
+        .lines()
+        .take_while(|line| !line.contains("vertex"))
+        .count();
+    let comma = refused(text.replacen("vertex 0", "vertex 0,5", 1)).to_string();
+    assert!(
+        comma.contains(&format!("line {line} has '0,5")) && comma.contains("not a comma"),
+        "{comma}"
+    );
+    let word = refused(text.replacen("vertex 0", "vertex x", 1)).to_string();
+    assert!(
+        word.contains(&format!("line {line} has 'x")) && !word.contains("comma"),
+        "{word}"
+    );
+}
+
+#[test]
+fn a_model_in_another_form_is_to_be_exported_as_a_mesh() {
+    for (bytes, name) in [
+        (&b"ISO-10303-21;"[..], "knee.txt"),
+        (b"PK\x03\x04", "knee.3mf"),
+    ] {
+        let error = decode_model(bytes, name).unwrap_err();
+        assert_eq!(error.problem, Problem::OtherModel);
+        assert!(error.to_string().contains("STL, OBJ or PLY"), "{error}");
+    }
+}
+
+#[test]
 fn a_wrong_number_of_triangles_is_told() {
     let mut file = stl_binary("x");
     file[80] = 5;

@@ -56,6 +56,8 @@ fn content_decides_whatever_the_name() {
         (b"\x1A\x45\xDF\xA3webm".to_vec(), Kind::Video),
         (b"\0\0\0\x20ftypisom\0\0".to_vec(), Kind::Video),
         (b"RIFF\0\0\0\0AVI LIST".to_vec(), Kind::Video),
+        (b"ISO-10303-21;\nHEADER;\n".to_vec(), Kind::OtherModel),
+        (b"glTF\x02\0\0\0".to_vec(), Kind::OtherModel),
         (b"\0\0\0\x20ftypheic\0\0".to_vec(), Kind::Unknown),
         (b"{ \"format\": \"another\" }".to_vec(), Kind::Unknown),
         (b"".to_vec(), Kind::Unknown),
@@ -76,5 +78,6 @@ fn a_name_helps_where_content_cannot_tell() {
     assert_eq!(sniff(&[0; 50], "Knee.STL"), Kind::Stl);
     assert_eq!(sniff(&[0; 50], "run.dcm"), Kind::Dicom);
     assert_eq!(sniff(b"garbage", "x.png"), Kind::Png);
+    assert_eq!(sniff(b"PK\x03\x04", "Tray.3MF"), Kind::OtherModel);
     assert_eq!(sniff(b"", "x.png"), Kind::Unknown);
 }

@@ -134,6 +134,7 @@ function kindOf(word: string): FileKind {
     case 'distortion':
     case 'study':
     case 'video':
+    case 'other-model':
       return word;
     default:
       return 'unknown';
