@@ -24,7 +24,9 @@ pub enum Problem {
     #[error("the file is empty. Choose another or copy it again")]
     Empty,
     /// The content is not a frame of a kind that is read here; `found` says what it looks like.
-    #[error("this is {found}, not a frame. Frames are PNG, JPEG, JPEG 2000, TIFF or DICOM files")]
+    #[error(
+        "this is {found}, not a frame. Frames are PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM files"
+    )]
     NotAFrame {
         /// What the content looks like, as a noun.
         found: &'static str,

@@ -7,9 +7,9 @@ use crate::error::{DecodeError, Problem};
 use crate::frame::GreyFrame;
 use crate::limits::MAX_PIXEL_BYTES_AT_ONCE;
 use crate::sniff::{Kind, sniff};
-use crate::{jpeg, jpeg2000, png, tiff};
+use crate::{bmp, jpeg, jpeg2000, png, tiff};
 
-/// A PNG, JPEG, JPEG 2000, TIFF or DICOM file whose structure has been checked, and whose frames are decoded one by one.
+/// A PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM file whose structure has been checked, and whose frames are decoded one by one.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -34,6 +34,7 @@ enum Content {
     Png((u32, u32)),
     Jpeg((u32, u32)),
     Jpeg2000((u32, u32)),
+    Bmp((u32, u32)),
     Tiff { pages: Vec<tiff::Page> },
     Dicom(Box<Dicom>),
 }
@@ -70,7 +71,7 @@ impl<'a> FrameFile<'a> {
     /// How many frames it holds, at least 1.
     pub fn count(&self) -> usize {
         match &self.content {
-            Content::Png(_) | Content::Jpeg(_) | Content::Jpeg2000(_) => 1,
+            Content::Png(_) | Content::Jpeg(_) | Content::Jpeg2000(_) | Content::Bmp(_) => 1,
             Content::Tiff { pages } => pages.len(),
             Content::Dicom(dicom) => dicom.count(),
         }
@@ -99,7 +100,10 @@ impl<'a> FrameFile<'a> {
             return None;
         }
         match &self.content {
-            Content::Png(size) | Content::Jpeg(size) | Content::Jpeg2000(size) => Some(*size),
+            Content::Png(size)
+            | Content::Jpeg(size)
+            | Content::Jpeg2000(size)
+            | Content::Bmp(size) => Some(*size),
             Content::Tiff { pages } => Some(pages.get(index)?.size),
             Content::Dicom(dicom) => Some(dicom.size(index)),
         }
@@ -122,6 +126,7 @@ impl<'a> FrameFile<'a> {
             Content::Png(_) => png::decode(&self.bytes),
             Content::Jpeg(_) => jpeg::decode(&self.bytes),
             Content::Jpeg2000(_) => jpeg2000::decode(&self.bytes),
+            Content::Bmp(_) => bmp::decode(&self.bytes),
             Content::Tiff { pages } => tiff::decode(&self.bytes, &pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
         }
@@ -134,6 +139,7 @@ impl Content {
             Kind::Png => Self::Png(png::check(bytes)?),
             Kind::Jpeg => Self::Jpeg(jpeg::check(bytes)?),
             Kind::Jpeg2000 => Self::Jpeg2000(jpeg2000::check(bytes)?),
+            Kind::Bmp => Self::Bmp(bmp::check(bytes)?),
             Kind::Tiff => Self::Tiff {
                 pages: tiff::pages(bytes)?,
             },

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! bytes --> sniff --> Kind
-//!       --> FrameFile::open --> frame(index) --> GreyFrame      PNG, JPEG, JPEG 2000, TIFF, DICOM
+//!       --> FrameFile::open --> frame(index) --> GreyFrame      PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM
 //!       --> decode_mask ------------------------> MaskImage     the same, one frame
 //!       --> decode_model -----------------------> Model         STL, OBJ, PLY
 //! ```
@@ -39,6 +39,7 @@ mod frame;
 mod luminance;
 mod shutter;
 
+mod bmp;
 mod dicom;
 mod jpeg;
 mod jpeg2000;

@@ -16,6 +16,8 @@ pub enum Kind {
     Jpeg2000,
     /// A TIFF image of one or more pages.
     Tiff,
+    /// A BMP image.
+    Bmp,
     /// A DICOM object.
     Dicom,
     /// An STL model.
@@ -51,7 +53,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
+    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
     /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
@@ -59,6 +61,7 @@ impl Kind {
             Self::Jpeg => "jpeg",
             Self::Jpeg2000 => "jpeg2000",
             Self::Tiff => "tiff",
+            Self::Bmp => "bmp",
             Self::Dicom => "dicom",
             Self::Stl => "stl",
             Self::Obj => "obj",
@@ -85,6 +88,7 @@ impl Kind {
             Self::Jpeg => "a JPEG image",
             Self::Jpeg2000 => "a JPEG 2000 image",
             Self::Tiff => "a TIFF image",
+            Self::Bmp => "a BMP image",
             Self::Dicom => "a DICOM file",
             Self::Stl => "an STL model",
             Self::Obj => "an OBJ model",
@@ -177,7 +181,17 @@ fn by_content(bytes: &[u8], length: usize) -> Option<Kind> {
     if stl_form::is_binary(bytes, length) {
         return Some(Kind::Stl);
     }
+    if is_bmp(bytes) {
+        return Some(Kind::Bmp);
+    }
     text_kind(bytes)
+}
+
+/// Its mark is two letters, so the length of its second header counts too.
+fn is_bmp(bytes: &[u8]) -> bool {
+    let header = bytes.get(14..).and_then(<[u8]>::first_chunk::<4>);
+    bytes.starts_with(b"BM")
+        && header.is_some_and(|&four| (12..=124).contains(&u32::from_le_bytes(four)))
 }
 
 /// First bytes of Matroska and WebM, MPEG, Windows Media; then the forms that begin with a length: MP4 and QuickTime
@@ -239,6 +253,7 @@ fn by_name(name: &str) -> Kind {
         Some("jpg" | "jpeg") => Kind::Jpeg,
         Some("jp2" | "j2k" | "j2c" | "jpc") => Kind::Jpeg2000,
         Some("tif" | "tiff") => Kind::Tiff,
+        Some("bmp" | "dib") => Kind::Bmp,
         Some("dcm" | "dicom") => Kind::Dicom,
         Some("stl") => Kind::Stl,
         Some("obj") => Kind::Obj,

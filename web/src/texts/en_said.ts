@@ -27,7 +27,7 @@ export const said = {
   posesNeedFrames: 'the poses are for frames: open the frames first, then the poses',
   emptyFile: 'the file is empty; export or copy it again',
   notRecognised:
-    'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',
+    'not recognised; the page opens frames (PNG, JPEG, TIFF, BMP, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',
   theCalibration: (name: string) => `the calibration ${name}`,
   asModel: (name: string, component: string) => `${name} as the model of the ${component}`,
   asLibrary: (name: string, component: string) => `${name} as the library of the ${component}`,

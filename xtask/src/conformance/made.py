@@ -228,6 +228,18 @@ def pillow_tiffs(grey):
     yield "jpeg-ycbcr.tif", save(Image.fromarray(colours()), compression="jpeg")
 
 
+def bitmaps(grey):
+    from PIL import Image
+
+    yield "grey.bmp", Image.fromarray(grey)
+    yield "bilevel.bmp", Image.fromarray(grey).convert("1")
+    yield "rgb.bmp", Image.fromarray(colours())
+    yield "rgba.bmp", Image.fromarray(np.dstack([colours(), grey]))
+    palette = Image.fromarray(grey).convert("P")
+    palette.putpalette([value for i in range(256) for value in (255 - 3 * i % 256, 40 * i % 256, i)])
+    yield "palette.bmp", palette
+
+
 def pictures():
     from PIL import Image
     import imagecodecs as codecs
@@ -255,6 +267,8 @@ def pictures():
         image.putpalette([value for i in range(1 << bits) for value in (255 - 3 * i % 256, 40 * i % 256, i)])
         yield f"palette-{bits}.png", save(image, bits=bits)
     yield "bilevel.png", save(Image.fromarray(grey).convert("1"))
+    for name, image in bitmaps(grey):
+        yield name, save(image)
     yield "grey.jpg", save(Image.fromarray(grey), quality=92)
     yield "progressive.jpg", save(Image.fromarray(grey), quality=92, progressive=True)
     yield "rgb.jpg", save(Image.fromarray(colours()), quality=92)

@@ -5,6 +5,7 @@
     reason = "an unwrap that fails here is a failed test"
 )]
 
+mod bmp;
 mod dicom;
 mod hostile;
 mod jpeg;

@@ -2,7 +2,7 @@ use fluoropose_decode::{Kind, sniff, sniff_head};
 
 use crate::samples::dicom::{Builder, EXPLICIT};
 use crate::samples::models::{obj, ply_ascii, ply_little, stl_ascii, stl_binary};
-use crate::samples::{jpeg, png, raw_tiff};
+use crate::samples::{bmp, jpeg, png, raw_tiff};
 
 #[test]
 fn the_beginning_and_the_length_tell_as_much_as_the_whole() {
@@ -18,6 +18,7 @@ fn content_decides_whatever_the_name() {
         (png(1, 1, grey, png::BitDepth::Eight, &[1]), Kind::Png),
         (jpeg(8, 8, &[1; 64], false), Kind::Jpeg),
         (raw_tiff(&[], &[]), Kind::Tiff),
+        (bmp::grey(2, 2, &[0; 4]), Kind::Bmp),
         (
             Builder::image(EXPLICIT, 1, 1, 8, 1).octets(&[1]),
             Kind::Dicom,

@@ -116,6 +116,7 @@ function kindOf(word: string): FileKind {
     case 'jpeg':
     case 'jpeg2000':
     case 'tiff':
+    case 'bmp':
     case 'dicom':
       return 'frames';
     case 'stl':

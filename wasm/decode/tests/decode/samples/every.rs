@@ -12,7 +12,7 @@ use super::dicom::{
 };
 use super::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
 use super::{
-    big_tiff, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
+    big_tiff, bmp, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
     tiffs, tiled_tiff,
 };
 
@@ -99,6 +99,7 @@ fn images() -> Vec<Sample> {
             tiled_tiff(11, 7, &std::array::from_fn(|i| i as u8)),
         ),
         sample("big.tif", big_tiff(12, 9, &pixels)),
+        sample("grey.bmp", bmp::grey(12, 9, &pixels)),
     ]
 }
 

@@ -1,5 +1,6 @@
 //! Small files made in code, by encoders that are not part of what is tested, or by hand.
 
+pub(crate) mod bmp;
 pub(crate) mod dicom;
 pub(crate) mod every;
 pub(crate) mod foreign;
