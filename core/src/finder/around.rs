@@ -7,9 +7,8 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate};
+use super::candidate::{CANDIDATES, Candidate, SAME_DEG, keep_once};
 use super::nearby::about;
-use super::rounds::SAME_DEG;
 use crate::camera::Camera;
 use crate::math::{radians, scale};
 use crate::mesh::Model;
@@ -74,14 +73,7 @@ pub fn look_around(
     around.refine_mirror_images()?;
     let found = around.assessed(&best)?;
     for candidate in found {
-        let same = |other: &Candidate| is_same(&candidate.pose, &other.pose);
-        if !all
-            .iter()
-            .any(|other| same(other) && other.misfit() <= candidate.misfit())
-        {
-            all.retain(|other| !same(other));
-            keep(&mut all, candidate, Candidate::misfit);
-        }
+        keep_once(&mut all, candidate);
     }
     Ok(all)
 }

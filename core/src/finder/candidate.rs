@@ -1,14 +1,20 @@
 //! A pose that explains a frame, and how well.
 
+use heapless::Vec;
+
 use super::choice::{CONTENDERS, RivalPose};
 use crate::locate::rerank::Reranked;
 use crate::math::sqrt;
-use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
+use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{Fit, Refined};
+use crate::shortlist::keep;
 
 /// Most candidates of a frame: as many as are compared.
 pub const CANDIDATES: usize = CONTENDERS;
+
+/// Of poses nearer to each other than this, degrees, the best is kept.
+pub(super) const SAME_DEG: f64 = 0.5;
 
 /// A pose that explains a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,5 +63,56 @@ impl Candidate {
             pose: self.pose,
             residual_px: self.misfit(),
         }
+    }
+}
+
+/// Keeps a candidate in place of those that came to the same pose and fit worse, and not at all where one of these fits as well: two that are one are
+/// no reason to doubt either.
+pub(super) fn keep_once(candidates: &mut Vec<Candidate, CANDIDATES>, candidate: Candidate) {
+    let is_same =
+        |other: &Candidate| geodesic_deg(&candidate.pose.rotation, &other.pose.rotation) < SAME_DEG;
+    let mut same = candidates.iter().filter(|other| is_same(other));
+    if same.any(|other| other.misfit() <= candidate.misfit()) {
+        return;
+    }
+    candidates.retain(|other| !is_same(other));
+    keep(candidates, candidate, Candidate::misfit);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pose::EulerPose;
+
+    #[test]
+    fn of_candidates_that_came_to_one_pose_the_best_is_kept() {
+        let at = |x_rot_deg: f64, loss: f64| {
+            let pose = Pose::from(EulerPose {
+                x_rot_deg,
+                z_mm: -1000.0,
+                ..EulerPose::default()
+            });
+            Candidate {
+                pose,
+                start: pose,
+                located: None,
+                refined: Some(Refined {
+                    loss,
+                    ..Refined::at(pose)
+                }),
+                covariance: None,
+                fit: Fit::default(),
+            }
+        };
+        let kept = |all: &[Candidate]| {
+            let mut candidates = Vec::new();
+            all.iter().for_each(|&one| keep_once(&mut candidates, one));
+            candidates
+        };
+        let [one, twin, better, other] = [at(0.0, 0.2), at(0.3, 0.2), at(0.4, 0.1), at(9.0, 0.3)];
+        assert_eq!(kept(&[one, other, twin]), [one, other]);
+        assert_eq!(kept(&[one, other, better]), [better, other]);
+        // Two that are not each other's, and one between them.
+        assert_eq!(kept(&[one, at(0.8, 0.2), better]), [better]);
     }
 }

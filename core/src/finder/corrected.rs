@@ -2,10 +2,9 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate};
+use super::candidate::{CANDIDATES, Candidate, SAME_DEG, keep_once};
 use super::mirrored::add_mirror_images;
 use super::rivals::{RefinedRival, refine_rivals};
-use super::rounds::SAME_DEG;
 use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
@@ -85,7 +84,7 @@ pub(super) fn add_assessed(
 }
 
 /// Corrects the refined poses among the candidates of a frame by the film of `image`, and adds mirror images of the best in the
-/// model's `planes` where none is among them; best first again. One that cannot be corrected is dropped while another can.
+/// model's `planes` where none is among them; best first again. One that cannot be corrected is dropped while another can, and of those that come to one pose the best is left.
 ///
 /// # Errors
 /// That of the last candidate, where none can be corrected.
@@ -116,9 +115,7 @@ pub fn correct_candidates(
             })
         };
         match one() {
-            Ok(candidate) => {
-                keep(&mut corrected, candidate, Candidate::misfit);
-            }
+            Ok(candidate) => keep_once(&mut corrected, candidate),
             Err(error) => failure = Some(error),
         }
     }

@@ -5,8 +5,7 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate};
-use super::rounds::SAME_DEG;
+use super::candidate::{CANDIDATES, Candidate, SAME_DEG};
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;

@@ -2,6 +2,7 @@
 
 use heapless::Vec;
 
+use super::candidate::SAME_DEG;
 use crate::finder::nearby::{about, nearby};
 use crate::math::radians;
 use crate::mesh::Model;
@@ -47,9 +48,6 @@ const LOOKED_SAME_DEG: f64 = 1.0;
 
 /// See [`is_on_the_way`].
 const ON_THE_WAY: f64 = 0.5;
-
-/// Of poses nearer to each other than this, degrees, the best is kept.
-pub(super) const SAME_DEG: f64 = 0.5;
 
 /// A refined pose and what it was refined from.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -56,12 +56,16 @@ pub(super) struct Held<'h> {
     pub(super) refined: bool,
 }
 
+/// Whole pixels leave some hundredths of a pixel, more or less, at one and the same pose.
+const ROUNDING_PX: f64 = 0.05;
+
 impl Held<'_> {
     /// Whether another pose is not this one: turned away from it, or, of what was refined, leaving so much less that both did not come to one end. What a hand set
     /// leaves more than that because hands are not exact.
     fn is_beside(&self, other: &Pose, misfit_px: f64) -> bool {
         let turn_deg = geodesic_deg(&self.pose.rotation, &other.rotation);
-        turn_deg >= OTHER_DEG || self.refined && DECISIVE_RATIO * misfit_px <= self.fit.misfit_px
+        let less = DECISIVE_RATIO * misfit_px + ROUNDING_PX;
+        turn_deg >= OTHER_DEG || self.refined && less <= self.fit.misfit_px
     }
 }
 
@@ -141,6 +145,15 @@ mod tests {
         assert!(held(true).is_beside(&deeper, 0.7) && !held(false).is_beside(&deeper, 0.7));
         // Both came to one end.
         assert!(!held(true).is_beside(&deeper, 0.8));
+        let exact = Fit {
+            misfit_px: 0.004,
+            ..Fit::default()
+        };
+        let drawn = Held {
+            fit: &exact,
+            ..held(true)
+        };
+        assert!(!drawn.is_beside(&pose(-1000.1, 0.0), 0.001) && drawn.is_beside(&turned, 0.001));
         assert!(held(true).is_beside(&turned, 2.0) && held(false).is_beside(&turned, 0.5));
     }
 }

@@ -3,13 +3,13 @@
 use fluoropose::camera::Camera;
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{FilmModel, FilmProfile, pool::profiles_of_each};
-use fluoropose::finder::{Candidate as FinderCandidate, Doubt, look_beyond};
+use fluoropose::finder::{Candidate as FinderCandidate, Doubt, OTHER_DEG, look_beyond};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::Contour;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
 use fluoropose::math::{multiply, transpose};
-use fluoropose::pose::{EulerPose, Pose, view_rotation};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, Refined};
 use wasm_bindgen::prelude::*;
 
@@ -155,7 +155,8 @@ impl Matcher {
             usual,
             ..self.seen(frame, hidden, &own.start, film_model(film)?)?
         };
-        let found = self.corrected(&given, &seen)?;
+        let mut found = self.corrected(&given, &seen)?;
+        stand_for(&own.start, &mut found);
         let from = |one: &OnFrame| given.iter().position(|given| given.start == one.start);
         let (mut known, mut more): (Vec<_>, Vec<_>) =
             found.into_iter().partition(|one| from(one).is_some());
@@ -169,6 +170,18 @@ impl Matcher {
         let places = known.iter().map(from).collect();
         known.extend(more.into_iter().take(OFFERED));
         self.answer(&known, places, &seen)
+    }
+}
+
+/// Where another pose came to where the chosen one did, and the better of both is left, that is the chosen one.
+fn stand_for(chosen: &Pose, found: &mut [OnFrame]) {
+    if found.iter().any(|one| one.start == *chosen) {
+        return;
+    }
+    let turn_deg = |one: &OnFrame| geodesic_deg(&one.refined.pose.rotation, &chosen.rotation);
+    let near = found.iter_mut().filter(|one| turn_deg(one) < OTHER_DEG);
+    if let Some(one) = near.min_by(|a, b| turn_deg(a).total_cmp(&turn_deg(b))) {
+        one.start = *chosen;
     }
 }
 

@@ -85,7 +85,7 @@ export class Actions {
       case 'tracing':
         return this.#trace(action.command);
       case 'undo':
-        store.undo();
+        this.#undo();
         return true;
       case 'redo':
         store.redo();
@@ -323,6 +323,14 @@ export class Actions {
       const { openDemonstration } = await import('../exchange/demonstration');
       await openDemonstration(this.#services);
     });
+  }
+
+  /** What was done last is a click, while it is still answered. */
+  #undo(): void {
+    const click = this.#store.ui.jobs.findLast(({ at }) => at !== undefined);
+    if (!click) return this.#store.undo();
+    click.cancel();
+    this.#store.say('info', texts.said.clickTakenBack);
   }
 
   async saveSession(includeFiles = true): Promise<void> {

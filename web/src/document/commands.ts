@@ -199,6 +199,8 @@ export function setCalibration(calibration: Calibration | null): Command {
   return {
     label: texts.steps.changeCalibration,
     apply: (doc) => {
+      // The same folder may be dropped twice.
+      if (doc.calibration?.text === calibration?.text && doc.calibration?.name === calibration?.name) return doc;
       const isOther = doc.calibration !== null && doc.calibration.text !== calibration?.text;
       return { ...(isOther ? foundAnew(doc, null) : doc), calibration };
     },

@@ -1,4 +1,5 @@
 import { distortionKey } from './distortion';
+import { isSilhouette } from './laid_by';
 import type { ComponentName } from '../terms/component';
 import { withOtherPoses } from './marks';
 import { type Cell, type Doc, isFromFilm } from './types';
@@ -15,9 +16,12 @@ export function foundAnew(doc: Doc, of: ComponentName | null): Doc {
   return { ...doc, cells, marks: withOtherPoses(doc, (_, component) => isConcerned(component)) };
 }
 
-/** How many cells lost a pose that was followed. */
+/** How many cells lost a pose that was followed, or that a click led to. */
 export function droppedIn(before: Doc, after: Doc): number {
-  const lost = before.cells.differences(after.cells).filter(({ before: was, after: is }) => isFromFilm(was?.result ?? null) && was?.result?.kind === 'posed' && !is?.result);
+  const lost = before.cells.differences(after.cells).filter(({ before: was, after: is }) => {
+    const isGone = isFromFilm(was?.result ?? null) || (isSilhouette(was?.outline ?? null) && !is?.outline);
+    return isGone && was?.result?.kind === 'posed' && !is?.result;
+  });
   return lost.length;
 }
 

@@ -425,9 +425,9 @@ export class FilmReader {
     this.#services.store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
-      const known = result.candidates.map((candidate, at) => correctedBy(candidate, answers.find(({ from }) => from === at)));
+      const left = { ...result, ...correctedOf(result, answers) };
       const more = answers.filter(({ from }) => from === null).map(another);
-      const after = { ...result, ...settled(result, known, more), onFrame: { film } };
+      const after = { ...left, ...settled(left, left.candidates, more), onFrame: { film } };
       // What somebody traced stays; the silhouette that a click found goes along.
       const outline = isSilhouette(cell.outline) ? (itsOutline(after.candidates[after.chosen]) ?? cell.outline) : cell.outline;
       return withCell(doc, place, { outline, result: after, resultOf: outline });
@@ -450,9 +450,14 @@ function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' 
   return { component, frame };
 }
 
-/** The candidate with its new numbers, and the outline that they draw. */
-function correctedBy(candidate: Candidate, answer: Corrected | undefined): Candidate {
-  return answer ? outlined(corrected(candidate, answer), answer) : candidate;
+/** The candidates with their new numbers, and the outlines that they draw. Those that came to one pose are one, and what cannot be corrected is none. */
+function correctedOf({ candidates, chosen }: Posed, answers: readonly Corrected[]): Pick<Posed, 'candidates' | 'chosen'> {
+  const answerOf = (at: number) => answers.find(({ from }) => from === at);
+  const left = candidates.flatMap((candidate, at) => {
+    const answer = answerOf(at);
+    return answer ? [outlined(corrected(candidate, answer), answer)] : [];
+  });
+  return { candidates: left, chosen: candidates.filter((_, at) => at < chosen && answerOf(at)).length };
 }
 
 /** A pose that nobody had looked at. */

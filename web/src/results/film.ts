@@ -221,6 +221,8 @@ export function settled(before: Posed, candidates: readonly Candidate[], more: r
   const [best] = more.toSorted((a, b) => misfitOf(a) - misfitOf(b));
   const rest = candidates.filter((candidate) => candidate !== own);
   const all = { candidates: [...candidates, ...more], chosen };
+  // The others came to the same pose.
+  if (own && all.candidates.length === 1) return { ...all, decided: true, reason: decided ? reason : null, verdict: own.judged?.verdict ?? null };
   if (!own || !best || misfitOf(best) > DECISIVE * misfitOf(own)) {
     // Between several poses something else decided, which still holds.
     const why = own && best && candidates.length === 1 ? texts.film.clearer(misfitOf(own), misfitOf(best)) : reason;

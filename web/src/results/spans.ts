@@ -31,6 +31,8 @@ export interface Given {
   readonly isAccepted: boolean;
   /** A click led to it, and the film corrects it. */
   readonly isClicked: boolean;
+  /** It led, and the film that was followed from it does not find it right. */
+  readonly isRuledOut: boolean;
 }
 
 /** Null where nothing is to be done: no frame is set, or all that lies between is followed from those that are. */
@@ -38,8 +40,6 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const given = givenPoses(doc, component);
   if (given.length === 0) return null;
   const key: Span['key'] = (frame, left = () => null) => keyAmong(given.map((one) => (one.isSet ? one : { ...one, pose: left(one.frame) ?? one.pose })), frame);
-  // Frames that were followed together with one that somebody finds right need not be followed again for it.
-  const besidesAccepted = given.filter(({ isAccepted }) => !isAccepted);
   const isDoubtful = given.every((one) => one.isDoubtful && one.isSet);
   // Of what nobody set the whole film is to tell.
   const isOpen = given.some((one) => one.isDoubtful && !one.isSet);
@@ -49,10 +49,9 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
     if (set.has(frame) || !isFree(cell)) return [];
     // What was followed so far when the page went was not judged with the film.
     const isJudged = isFollowed(cell.result) && !isSoFar(cell.result);
-    const isFrom = (these: readonly Given[]) => isJudged && cell.result !== null && isFromThese(cell.result.origin, these, frame);
     // Sessions from before `own` do not know what is said of it now.
     const isLed = !isDoubtful && verdictAlone(cell.result)?.because === texts.follow.fromDoubtful;
-    const isDone = !isOpen && !isLed && (isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted)));
+    const isDone = !isOpen && !isLed && isJudged && cell.result !== null && isFromThese(cell.result.origin, given, frame, true);
     return isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
@@ -81,16 +80,11 @@ export function isLed(doc: Doc, component: ComponentName): boolean {
  */
 function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
   const all = doc.frames.flatMap(({ id }, frame) => givenIn(doc, { frameId: id, component }, frame) ?? []);
-  const isOfPerson = all.some((one) => !one.isAccepted && !one.isDoubtful && !isLeader(one));
-  const leading = isOfPerson ? all.filter((one) => !isLeader(one)) : all;
+  const isOfPerson = all.some(({ isSet, isDoubtful, isAccepted }) => isSet && !isDoubtful && !isAccepted);
+  const leading = isOfPerson ? all.filter((one) => !one.isRuledOut) : all;
   const trusted = leading.filter(({ isDoubtful }) => !isDoubtful);
   const open = leading.filter(({ isSet }) => !isSet);
   return trusted.length > 0 ? trusted : open.length > 0 ? open : leading;
-}
-
-/** It led once, and the film has told since whether it is right. */
-function isLeader({ isSet, isDoubtful }: Given): boolean {
-  return !isSet && !isDoubtful;
 }
 
 function givenIn(doc: Doc, place: Place, frame: number): Given | null {
@@ -100,10 +94,11 @@ function givenIn(doc: Doc, place: Place, frame: number): Given | null {
   const isChecked = checkState(cell, markOf(doc, place)) === 'yes';
   if (isFollowed(cell.result)) {
     const led = hasLed(cell.result);
-    return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led, isClicked: false } : null;
+    const isRuledOut = !isChecked && verdictAlone(cell.result)?.word !== 'good';
+    return isChecked || led ? { frame, pose, isSet: isChecked, isDoubtful: false, isAccepted: isChecked && !led, isClicked: false, isRuledOut } : null;
   }
   const isDoubtful = !isChecked && !isByHand(cell.result) && verdictAlone(cell.result)?.word === 'doubtful';
-  return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false, isClicked: isFound(cell) };
+  return { frame, pose, isSet: !isDoubtful || !isFound(cell), isDoubtful, isAccepted: false, isClicked: isFound(cell), isRuledOut: false };
 }
 
 function keyAmong(given: readonly Given[], frame: number): string {
@@ -119,13 +114,16 @@ function leadsAmong(given: readonly Given[], frame: number): readonly Given[] {
 }
 
 /**
- * Was a frame followed from these? Constants of the film that are a little others move a clicked pose a little, there and back: its own
+ * Was a frame followed from these? `acceptedToo`: or together with those that somebody found right as they were, for which it need not be
+ * followed again. Constants of the film that are a little others move a clicked pose a little, there and back: its own
  * frame leads from both places to the same pose, and so do those beside it.
  */
-function isFromThese(origin: string, given: readonly Given[], frame: number): boolean {
+function isFromThese(origin: string, given: readonly Given[], frame: number, acceptedToo = false): boolean {
   if (origin.endsWith(keyAmong(given, frame))) return true;
   const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
-  return led.length === leads.length && leads.every((lead, at) => led[at]!.frame === lead.frame && (lead.isClicked ? isCorrectedUnseen : isNearUnseen)(led[at]!.pose, lead.pose));
+  const isOneOf = ({ frame, pose, isClicked }: Given) => led.some((one) => one.frame === frame && (isClicked ? isCorrectedUnseen : isNearUnseen)(one.pose, pose));
+  if (acceptedToo) return led.length > 0 && leads.every((lead) => lead.isAccepted || isOneOf(lead)) && (led.length <= leads.length || leads.some(({ isAccepted }) => isAccepted));
+  return led.length === leads.length && leads.every(isOneOf);
 }
 
 /** What `keyAmong` wrote. */

@@ -309,6 +309,8 @@ export const en = {
     exact: 'Exactly along the pixels (many points)',
     remarks: 'What could not be read',
     apply: (count: number) => (count === 1 ? 'Import 1 outline' : `Import ${count} outlines`),
+    waiting: 'Nothing is imported yet.',
+    goOn: 'Import…',
     applied: (count: number) => (count === 1 ? '1 outline imported; Ctrl+Z takes it back.' : `${count} outlines imported; Ctrl+Z takes them back.`),
     asFrames: 'Open as frames instead',
     leftOut: (count: number) => (count === 0 ? '' : `${count} left out`),

@@ -5,7 +5,7 @@ export const opening = {
   steppedAside: (name: string) => `It is a study of its own: ${name || 'what was open'} is under Save, Earlier work.`,
   backTo: (name: string) => `Back to ${name || 'what was open'}`,
   /** Without its full stop. */
-  dropped: (cells: number) => `${cells} followed ${cells === 1 ? 'pose is' : 'poses are'} dropped, found with the one before: Follow again, or undo`,
+  dropped: (cells: number) => `${cells} ${cells === 1 ? 'pose is' : 'poses are'} dropped, clicked or followed with the one before: find them again, or undo`,
   waits: (names: string) => `${names}: opened as soon as what came before is.`,
   tooLate: (names: string) => `${names}: other work came on view before this was read, and it was not opened. Go back to the work that it is for, and open it there.`,
   otherStudies: (opened: string, count: number, names: string) =>

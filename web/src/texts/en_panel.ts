@@ -73,7 +73,7 @@ export const panel = {
     atBorder:
       'The best view lies at the border of the library: the true rotation may lie beyond it. Choose all directions under the component above.',
     byHand: 'Chosen by hand; X goes back to the best.',
-    compares: (reason: string) => `${reason} X compares.`,
+    compares: (reason: string) => `${reason} X takes the other.`,
     alone: 'No other view comes near: the choice is clear.',
     clear: (drawn: boolean, ratio: string) => `${rival(drawn)} misses ${ratio} times as many pixels: the choice is clear.`,
     close: (drawn: boolean, ratio: string) => `${rival(drawn)} misses only ${ratio} times as many pixels: compare both overlays with X.`,

@@ -26,6 +26,7 @@ export const said = {
   outlinesNeedFrames: 'outlines are for frames: open the frames first, then the outlines',
   posesNeedFrames: 'the poses are for frames: open the frames first, then the poses',
   emptyFile: 'the file is empty; export or copy it again',
+  clickTakenBack: 'The click is taken back; undo once more goes on before it.',
   notRecognised:
     'not recognised; the page opens frames (PNG, JPEG, TIFF, BMP, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',
   theCalibration: (name: string) => `the calibration ${name}`,

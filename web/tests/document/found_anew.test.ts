@@ -47,8 +47,22 @@ it('what was followed with another model is dropped, and what somebody set is ju
   expect(states(store)).toEqual(WHOLE);
 });
 
+it('what a click led to with another model is counted among what is dropped', () => {
+  const store = work();
+  const outline: Outline = { points: [framePoint(2, 2), framePoint(6, 2), framePoint(6, 6)], closed: true, unknownSides: [], laidBy: 'click' };
+  const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(POSE)], chosen: 0, reason: null, decided: true, verdict: null };
+  store.perform({ label: 'click', apply: (doc) => withCell(doc, place('c'), { outline, result, resultOf: outline }) });
+  const before = store.doc;
+  store.perform(setModel('femur', { name: 'larger', sha256: 'larger' }));
+  expect(cellOf(store.doc, 'c', 'femur')).toMatchObject({ outline: null, result: null });
+  expect(droppedIn(before, store.doc)).toBe(3);
+});
+
 it('so it is of both components with another calibration, and the same one changes nothing', () => {
   const store = work();
+  const same = store.doc;
+  store.perform(setCalibration({ name: 'c', text: 'one' }));
+  expect(store.doc).toBe(same);
   store.perform(setCalibration({ name: 'again', text: 'one' }));
   expect(states(store)).toEqual(WHOLE);
   const before = store.doc;

@@ -197,6 +197,8 @@ describe('what a known film changes', () => {
       for (const reason of reasons) expect(reason).toMatch(/its mirror image/);
       expect(reasons[1]).toMatch(/^Not decided/);
       expect(settled(alone, [own], []).reason).toBe('The only pose found.');
+      const open: Verdict = { word: 'doubtful', because: 'another pose, 0 mm away, fits as well' };
+      expect(settled({ ...before(open), decided: false, reason: 'Undecided' }, [own], [])).toMatchObject({ decided: true, reason: null, verdict: GOOD });
       expect(settled({ ...alone, chosen: 1 }, [candidate(0.3), own], [candidate(0.25)]).reason).toMatch(/^Not decided/);
     });
 

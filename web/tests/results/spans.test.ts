@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { addFrames, withCell } from '../../src/document/commands';
 import { bare, setPoseByHand } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
+import { toggleChecked } from '../../src/document/marks';
 import { cellOf, type Doc, type Posed } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import type { PoseNumbers } from '../../src/geometry/pose_numbers';
@@ -66,6 +67,28 @@ describe('what was followed from a pose', () => {
     expect(isLeadDoubtful(store.doc, 'femur')(2, origin())).toBe(false);
     moved(store, 0, { x: 16 });
     expect(isLeadDoubtful(store.doc, 'femur')(2, origin())).toBeNull();
+  });
+
+  it('stands where others of it are accepted, whatever is set beyond those', () => {
+    const store = followed(0);
+    store.perform(toggleChecked(place(3)));
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+    store.perform(setPoseByHand(place(4), { ...POSE, x: 40 }));
+    expect(spanToFollow(store.doc, 'femur')).toBeNull();
+    const other = followed(0);
+    other.perform(setPoseByHand(place(4), { ...POSE, x: 40 }));
+    expect(spanToFollow(other.doc, 'femur')?.free).toBe(3);
+  });
+
+  it('is followed from where it began, too, where a person set another frame, unless the film found that wrong', () => {
+    const itself = `frame 1 at ${Object.values(POSE).map((x) => x.toFixed(3)).join(' ')}`;
+    for (const [word, leads] of [['good', [0, 4]], ['doubtful', [4]]] as const) {
+      const store = followed(0);
+      const lead = posed(POSE, { from: 'film', origin: `followed from ${itself} and ${itself}`, verdict: { word, because: 'so' } });
+      store.amend((doc) => withCell(doc, place(0), { outline: null, result: lead, resultOf: null }));
+      store.perform(setPoseByHand(place(4), { ...POSE, x: 40 }));
+      expect(spanToFollow(store.doc, 'femur')!.given.map(({ frame }) => frame)).toEqual(leads);
+    }
   });
 
   it('is followed anew where another frame leads, or what followed it said that it does not hold', () => {

@@ -254,6 +254,11 @@ fn told(pivot: Option<&Pivot>) -> String {
     let Some(pivot) = pivot else {
         return "no centre of rotation: too few condyle lines".to_owned();
     };
+    // Told as a range it would be 0.0 degrees, which is not what the lines do.
+    if pivot.rotation_deg < 0.05 {
+        return "no centre of rotation: the condyle lines turn by no more than their own errors"
+            .to_owned();
+    }
     if pivot.is_ill_conditioned() {
         return format!(
             "no centre of rotation: the condyle lines turn by {:.1}\u{b0} only",
@@ -270,4 +275,23 @@ fn told(pivot: Option<&Pivot>) -> String {
         toward(pivot.anterior_mm, ["anterior", "posterior"], along),
         toward(pivot.medial_mm, ["medial", "lateral"], across)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_err_by_as_much_as_they_turn_are_not_said_to_stand_still() {
+        let pivot = |rotation_deg| Pivot {
+            anterior_mm: 0.0,
+            medial_mm: 0.0,
+            deviation_mm: [9.0; 2],
+            rotation_deg,
+            condition: 30.0,
+            n: 12,
+        };
+        assert!(told(Some(&pivot(0.0))).ends_with("by no more than their own errors"));
+        assert!(told(Some(&pivot(1.3))).ends_with("turn by 1.3\u{b0} only"));
+    }
 }

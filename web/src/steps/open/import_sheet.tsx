@@ -1,3 +1,4 @@
+import { useEffect } from 'preact/hooks';
 import { importProposal } from '../../document/importing';
 import { assignments, componentNamed, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
 import type { State, Store } from '../../document/store';
@@ -15,6 +16,7 @@ export function ImportSheet({ state }: { state: State }) {
   const { store } = useApp().services;
   const { proposal } = state.ui;
   const { exchange } = texts;
+  useEffect(() => () => tellWaiting(store), []);
   if (!proposal) return <p class="sheet-body sheet-text">{exchange.nothing}</p>;
   const rows = assignments(state.history.present, proposal);
   const going = rows.filter(({ destination }) => destination.kind === 'to').length;
@@ -64,6 +66,12 @@ export function ImportSheet({ state }: { state: State }) {
       </div>
     </form>
   );
+}
+
+/** A sheet that was left without an answer is not gone. */
+function tellWaiting(store: Store): void {
+  const { exchange } = texts;
+  if (store.ui.proposal) store.say('info', exchange.waiting, { label: exchange.goOn, take: () => store.show({ popover: 'import' }) });
 }
 
 function close(store: Store): void {
