@@ -65,6 +65,19 @@ pub fn elsewhere(
     best
 }
 
+/// Where the pose leads that another way through the film came to; `None` where that is the frame's own.
+#[must_use]
+pub fn from_other_way(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    (own, other): (&FramePose, &Pose),
+    memory: &mut RefineMemory<'_>,
+) -> Option<FramePose> {
+    let starts = Starts::new(subject, image).knowing(&[own.pose]);
+    let found = starts.lead((other, From::Near), memory)?;
+    (!are_one(&found.pose, &own.pose)).then_some(found)
+}
+
 /// Where starts beside the first of the known poses come on the first look, apart from all of them: those that leave least there.
 fn near_elsewhere<'p>(
     subject: &Subject<'_>,

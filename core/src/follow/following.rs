@@ -15,7 +15,7 @@ use task::{Span, Task, Walk};
 use super::cell::{Anchor, Cell};
 use super::conclude::{KnownBeside, conclude, trusted_middles};
 use super::conclusion::Conclusion;
-use super::elsewhere::elsewhere;
+use super::elsewhere::{elsewhere, from_other_way};
 use super::frame_pose::FramePose;
 use super::good_frames::{frames_to_ask, good_poses};
 use super::known_femur::KnownFemur;
@@ -270,7 +270,8 @@ impl Following {
         }
     }
 
-    /// The other pose of a frame, where it was compared and there is one: the one beside it that is as likely, or its mirror image.
+    /// The other pose of a frame, where it was compared and there is one: the one beside it that is as likely, that from the film's other
+    /// end, or its mirror image.
     #[must_use]
     pub fn rival(&self, frame: usize) -> Option<&FramePose> {
         let compared = self.rivals.iter().find(|sample| sample.frame == frame)?;
@@ -402,11 +403,13 @@ impl Following {
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
         let &own = self.cells[frame].found()?;
+        let way = self.way_to_compare(frame);
+        let other = way.and_then(|pose| from_other_way(subject, image, (&own, &pose), memory));
         let sample = SideSample {
             frame,
             own,
             rival: Rival::Mirrored,
-            other: mirrored_pose(subject, image, &own, memory),
+            other: other.or_else(|| mirrored_pose(subject, image, &own, memory)),
             fixed: self.cells[frame].fixed,
         };
         match self.phase {
@@ -414,6 +417,16 @@ impl Following {
             _ => self.settling.saw(sample),
         }
         Some(own)
+    }
+
+    /// Where the film came to another pose of a frame from its other end that is the pose to compare with, unless its mirror image is open.
+    fn way_to_compare(&self, frame: usize) -> Option<Pose> {
+        let margins = self.settling.margins(&self.cells);
+        let margin = margins.get(frame).copied().flatten();
+        let is_open =
+            margin.is_some_and(|other| other.rival == Rival::Mirrored && !other.decides());
+        let way = self.cells[frame].other_way;
+        way.filter(|_| self.phase == Phase::Compare && !is_open)
     }
 
     fn see_from_elsewhere(

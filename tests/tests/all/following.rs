@@ -5,6 +5,7 @@ use fluoropose::follow::{
 };
 use fluoropose::image::frame::Frame;
 use fluoropose::math::{add, apply, multiply, rotation_by, subtract};
+use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
@@ -29,6 +30,8 @@ struct Given<'f> {
     /// Frames that were searched as a whole, and what is found in those that are not empty.
     searched: Vec<usize>,
     there: Option<Pose>,
+    /// Whether the part's planes of symmetry are known.
+    has_planes: bool,
 }
 
 impl<'f> Given<'f> {
@@ -39,6 +42,7 @@ impl<'f> Given<'f> {
             asked: Vec::new(),
             searched: Vec::new(),
             there: None,
+            has_planes: true,
         }
     }
 
@@ -53,7 +57,8 @@ impl<'f> Given<'f> {
         let model = model.as_model();
         let camera = camera(SIDE);
         let planes = symmetry_planes(model.mesh());
-        let subject = Subject::new(&model, &planes, &camera);
+        let planes: &[_] = if self.has_planes { &planes } else { &[] };
+        let subject = Subject::new(&model, planes, &camera);
         let mut buffers = RefineBuffers::default();
         for _ in 0..most {
             let Some(number) = following.wanted() else {
@@ -253,6 +258,39 @@ fn interrupted(before: usize) -> (Triangles, [Pose; 2], Vec<Vec<u8>>) {
     frames.extend(vec![seen(last); 8]);
     let poses = [first.femur.into(), last.femur.into()];
     (thigh, poses, frames)
+}
+
+/// A tray at rest that a person set on either side of its mirror, whose mirror images nobody can look at.
+#[test]
+fn a_frame_to_which_both_ends_of_the_film_come_otherwise_is_compared_with_the_other_end() {
+    let [thigh, tray] = coarse_parts();
+    let Position { femur, tibia, .. } = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1)[0];
+    let frames = vec![frame(SIDE, [(&thigh, femur, 120.0), (&tray, tibia, 70.0)], 0); FRAMES];
+    let owned = surface(tray.clone());
+    let model = owned.as_model();
+    let plane = symmetry_planes(model.mesh())[0];
+    let right = Pose::from(tibia);
+    let sides = [right, mirror_pose(&right, &plane)];
+    let mut following = Following::new(model.bounds().centre, FRAMES, 0..FRAMES);
+    following.give(0, sides[0], true);
+    following.give(FRAMES - 1, sides[1], true);
+    let mut given = Given::new(&tray, &frames);
+    given.has_planes = false;
+    given.go_on(&mut following);
+    following.choose_sides(None);
+    given.go_on(&mut following);
+    following.compare_sides(1..FRAMES - 1);
+    given.go_on(&mut following);
+    let off = |pose: &Pose, side: usize| geodesic_deg(&pose.rotation, &sides[side].rotation);
+    for frame in 1..FRAMES - 1 {
+        let own = following.cells()[frame].found().expect("seen").pose;
+        let rival = following.rival(frame).expect("the other way").pose;
+        let side = usize::from(off(&own, 1) < off(&own, 0));
+        assert!(
+            off(&own, side) < 5.0 && off(&rival, 1 - side) < 5.0,
+            "{frame}: {own:?} {rival:?}"
+        );
+    }
 }
 
 #[test]
