@@ -67,8 +67,8 @@ async function stated(page) {
   await sheet.getByText(/^Linear film, as stated, blur/).waitFor();
   const linear = await panel.waitForOtherPose(page, before);
   assert(linear.z < before.z - 2, `${linear.z} mm by a linear display`);
-  await sheet.getByRole('spinbutton', { name: 'Blur (px)' }).fill('9');
-  await sheet.getByRole('alert').getByText('A blur is between 0.3 and 3 pixels.').waitFor();
+  await sheet.getByRole('spinbutton', { name: 'Blur (px)' }).fill('13');
+  await sheet.getByRole('alert').getByText('A blur is above 0 and at most 12 pixels.').waitFor();
   await page.keyboard.press('Escape');
 }
 

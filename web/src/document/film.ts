@@ -7,6 +7,20 @@ import { DISPLAYS, type Doc, type Film, type FilmConstants, type FilmModel, type
 /** Curvature, blur and attenuation: with what a pose was found. */
 export const CONSTANTS = 3;
 
+/** What may be stated of a film, as the commands take it. A core that is told of more blur takes it as this. */
+const MOST_BLUR = 12;
+const MOST_CURVATURE = 1;
+
+/** Whether a film can be blurred so, px. */
+export function isBlur(blur: number): boolean {
+  return blur > 0 && blur <= MOST_BLUR;
+}
+
+/** Whether a display can be curved so, one divided by grey values. */
+export function isCurvature(curvature: number): boolean {
+  return curvature >= 0 && curvature <= MOST_CURVATURE;
+}
+
 /** Behind all other numbers of a film. */
 const SQUARE = 16;
 

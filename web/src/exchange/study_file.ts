@@ -1,5 +1,6 @@
 import { parse } from 'smol-toml';
 import { list, number, object, oneOf, optional, ReadError, text } from '../document/reader';
+import { isBlur, isCurvature } from '../document/film';
 import { componentNamed } from '../document/proposal';
 import type { Study, StudyPart } from '../document/study';
 import { type Axes, DISPLAYS, NOTHING_STATED, type StatedFilm } from '../document/types';
@@ -42,7 +43,7 @@ type StudyText = ReturnType<typeof readStudyText>;
 
 /** As the command line takes it: with curvature and blur nothing is estimated, otherwise what is left out is. */
 function statedBy({ curvature, blur_px: blur, display }: NonNullable<StudyText['film']>, parts: StudyText['component']): StatedFilm {
-  if ((curvature !== null && (blur === null || display !== null || curvature < 0)) || (blur !== null && blur <= 0)) {
+  if ((curvature !== null && (blur === null || display !== null || !isCurvature(curvature))) || (blur !== null && !isBlur(blur))) {
     throw new ReadError(later.study.wrongFilm);
   }
   if (curvature === null || blur === null) return { ...NOTHING_STATED, display, blur };

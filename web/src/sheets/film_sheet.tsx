@@ -1,5 +1,5 @@
 import { useState } from 'preact/hooks';
-import { stateFilm } from '../document/film';
+import { isBlur, isCurvature, stateFilm } from '../document/film';
 import type { State } from '../document/store';
 import { DISPLAYS, type Doc, type Film, type FilmConstants, type KnownFilm, type StatedFilm } from '../document/types';
 import { NumberField } from '../controls/number_field';
@@ -8,9 +8,6 @@ import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
-
-/** Blur that a film can have, px: a pixel's own width is the least. */
-const BLUR = { least: 0.3, most: 3 };
 
 /** What the frames tell of their film, and what a person states instead. */
 export function FilmSheet({ state }: { state: State }) {
@@ -21,7 +18,7 @@ export function FilmSheet({ state }: { state: State }) {
   const words = later.filmSheet;
   const say = (change: Partial<StatedFilm>) => store.perform(stateFilm({ ...stated, ...change }));
   const setBlur = (blur: number) => {
-    const possible = Number.isNaN(blur) || (blur >= BLUR.least && blur <= BLUR.most);
+    const possible = Number.isNaN(blur) || isBlur(blur);
     setTrouble(possible ? '' : words.wrongBlur);
     if (possible) say({ blur: Number.isNaN(blur) ? null : blur });
   };
@@ -102,7 +99,7 @@ function Constants({ constants, onChange }: ConstantsProps) {
 
 function isPossible({ curvature, blur, attenuation }: FilmConstants): boolean {
   const metal = COMPONENT_NAMES.map((component) => attenuation[component] ?? 1);
-  return curvature >= 0 && blur >= BLUR.least && blur <= BLUR.most && metal.every((value) => value > 0);
+  return isCurvature(curvature) && isBlur(blur) && metal.every((value) => value > 0);
 }
 
 /** What the frames tell, as a person would state it; a linear film of usual blur where they do not. */

@@ -26,6 +26,6 @@ export const filmSheet = {
   metalUnit: '1/mm',
   constantsMeaning:
     'A curvature of 0 is linear; 1/38 shows 38 grey values for a factor of e. Attenuation is that of thin metal. A component without it is not corrected. These are taken as certain, and a study file keeps them.',
-  wrongConstants: 'The curvature is 0 or more, the blur between 0.3 and 3 pixels, an attenuation above 0.',
-  wrongBlur: 'A blur is between 0.3 and 3 pixels.',
+  wrongConstants: 'The curvature is 0 to 1, the blur above 0 and at most 12 pixels, an attenuation above 0.',
+  wrongBlur: 'A blur is above 0 and at most 12 pixels.',
 };

@@ -79,6 +79,8 @@ describe('a study file', () => {
   it.each([
     ['[[component]]', '[film]\ncurvature = 0.025\n[[component]]', /of \[film\] either curvature/],
     ['[[component]]', '[film]\nblur_px = 0\n[[component]]', /of \[film\] either curvature/],
+    ['[[component]]', '[film]\nblur_px = 12.1\n[[component]]', /blur_px \(above 0, at most 12\)/],
+    ['[[component]]', '[film]\ncurvature = 1.1\nblur_px = 1\n[[component]]', /curvature \(0 to 1\)/],
     ['[[component]]', '[film]\ndisplay = "bent"\n[[component]]', /^study\.film\.display should be/],
     ['axes = "y z x"', 'axes = "y x z"', /the axes of the femur, "y x z", are not three/],
     ['side = "left"', 'side = "west"', /^study\.side should be "left" or "right"/],
