@@ -1,6 +1,8 @@
 //! From what a camera saw to the poses that explain it, by the method asked for.
 
 use anyhow::{Context, Result, ensure};
+use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::nearby::{WIDE_DEG, nearby};
@@ -37,6 +39,16 @@ pub enum Method {
 }
 
 impl Method {
+    /// Reads those that need no grey frames.
+    pub fn of_masks() -> impl TypedValueParser<Value = Self> {
+        let all = Self::value_variants().iter();
+        let words = all
+            .filter(|method| **method != Self::Image)
+            .filter_map(ValueEnum::to_possible_value);
+        PossibleValuesParser::new(words)
+            .map(|word| Self::from_str(&word, false).unwrap_or_default())
+    }
+
     /// The word for it in tables.
     pub fn word(self) -> &'static str {
         match self {

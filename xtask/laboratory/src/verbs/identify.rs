@@ -22,7 +22,7 @@ use crate::sequence::{Folders, Source};
 
 /// Implants that are told of each mask.
 const TOLD: usize = 3;
-/// An implant fits where no larger part of the silhouette differs. Clean masks of four components of two studies differed by 2 to 10.5 percent
+/// An implant fits where no larger part of the silhouette differs. Clean masks of six components of three studies differed by 2 to 11.2 percent
 /// from their own, by 12 and more from any other.
 const FITS: f64 = 0.115;
 
@@ -31,7 +31,7 @@ const FITS: f64 = 0.115;
 #[command(
     after_help = "Every library of the folder is one implant. The search is exact: it finds what comparing the mask with every view of \
 every library would, and leaves out only what cannot be better. A canonical silhouette tells nothing of an implant's size; the pose's depth does. Told are the parts \
-of the canonical silhouette that differ: of a clean mask 2 to 10 percent from its own implant. More than 11.5 is called no fit: another implant, or a poor mask; the \
+of the canonical silhouette that differ: of a clean mask 2 to 11 percent from its own implant. More than 11.5 is called no fit: another implant, or a poor mask; the \
 command exits with 3 then. A tray's pose may be its mirror image's: `pose` tells both.\n\n\
 Example:\n  cargo xtask identify --libraries catalogue --calibration calibration.txt --masks masks/femur"
 )]

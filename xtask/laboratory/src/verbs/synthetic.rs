@@ -64,7 +64,7 @@ const OF_THE_LIBRARY: [&str; 13] = [
 #[command(
     after_help = "Draws N random poses inside the library's range (x and y within 40 mm of the axis, z within 50 mm of the library's \
 distance, z_rot any), renders each as a mask, finds it again and prints mean absolute errors. Poses wrong by more than 4 degrees are \
-failures: they are counted and left out of the means, as in the source.\n\n\
+failures: they are counted and left out of the means, as in Walker et al. 1996.\n\n\
 --jitter S draws the outline as a hand would: the model is drawn four times as finely, its outline followed, smoothed of pixel steps, \
 moved along its normals by Gaussian noise of the standard deviation S and the correlation length --correlation, and filled again. \
 --occlude F hides the part F of the outline's length: behind a half plane, a disc or a band (what is hidden is left out of the mask or \
@@ -99,7 +99,7 @@ pub struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// How poses are found
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = Method::of_masks(), default_value = Method::default().word())]
     method: Method,
     /// Start refinement from the pose drawn, turned by DEG about a random axis and moved by MM
     /// aside and MM along the view, instead of from the library: the basin of refinement
@@ -292,7 +292,10 @@ mod tests {
             PROTOCOL,
             "--frames 3|--implants s|--stretch 1,1,1|--blur 1|--out x",
         ),
-        (PROTOCOL, "--poses 0|--unmarked|--correlation 3"),
+        (
+            PROTOCOL,
+            "--poses 0|--unmarked|--correlation 3|--method image",
+        ),
         (AROUND, "--method image|--x=-3:3:1|--jitter 1|--refusal"),
         (ACTIVITY, "--model a.stl|--poses 3|--json a.json|--jitter 1"),
         (ACTIVITY, "--films|--any-view"),

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
+use fluoropose::mesh::anatomy::AnatomicalAxes;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -14,6 +15,8 @@ enum Kind {
     Number,
     Above0,
     Pair,
+    /// Three axes of a model's file.
+    Axes,
     OneOf(&'static [&'static str]),
     /// Paths by the name of their source.
     Paths,
@@ -90,7 +93,7 @@ const COMPONENT: &[Key] = &[
         r#"role = "femur""#,
     ),
     optional("reference", Kind::Path, r#"reference = "femur.jts""#),
-    optional("axes", Kind::Text, r#"axes = "x y z""#),
+    optional("axes", Kind::Axes, r#"axes = "x y z""#),
     optional("nominal", Kind::Pair, "nominal = [0.0, 0.0]"),
     optional("distance_mm", Kind::Above0, "distance_mm = 1080.0"),
     optional("attenuation", Kind::Above0, "attenuation = 0.7"),
@@ -218,6 +221,15 @@ impl Checked {
             (Kind::Tables(_), DeValue::Table(_)) => {
                 bail!("line {line}: {}", two_brackets(key.name))
             }
+            (Kind::Axes, DeValue::String(words)) => {
+                let axes = AnatomicalAxes::from_words(words);
+                axes.map(|_| ()).map_err(|error| {
+                    anyhow!(
+                        "line {line}: {}axes: {error}; it is {words:?}",
+                        place.within
+                    )
+                })
+            }
             (kind, value) if kind.holds(value) => Ok(()),
             (kind, value) => bail!(
                 "line {line}: {}{} must be {}, as in {}; it is {}",
@@ -288,13 +300,13 @@ impl Kind {
                     .values()
                     .all(|one| one.get_ref().as_str().is_some_and(is_path))
             }),
-            Self::Table(_) | Self::Tables(_) => false,
+            Self::Axes | Self::Table(_) | Self::Tables(_) => false,
         }
     }
 
     fn words(&self) -> String {
         match self {
-            Self::Text => "text in quotes".to_owned(),
+            Self::Text | Self::Axes => "text in quotes".to_owned(),
             Self::Path => format!("a file or folder in quotes{ESCAPES}"),
             Self::Number => "a number".to_owned(),
             Self::Above0 => "a number above 0".to_owned(),

@@ -141,6 +141,17 @@ const FAULTY: &[(&str, [&str; 2])] = &[
         ],
     ),
     (
+        "STUDY;FEMUR;axes = 'x y'\n",
+        [
+            "line 6: component femur: axes: axes are three of",
+            "it is \"x y\"",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;axes = 'x y -z'\n",
+        ["line 6: component femur: axes: ", "right-handed"],
+    ),
+    (
         "STUDY;FEMUR;nominal = [inf, 0.0]\n",
         [
             "line 6: component femur: nominal must be two numbers",
