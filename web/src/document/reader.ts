@@ -22,6 +22,12 @@ export const count: Reader<number> = (value, path) => {
   return n;
 };
 
+export const above0: Reader<number> = (value, path) => {
+  const n = number(value, path);
+  if (n <= 0) throw wrong(path, 'a number above 0', value);
+  return n;
+};
+
 export const flag: Reader<boolean> = (value, path) => {
   if (typeof value !== 'boolean') throw wrong(path, 'true or false', value);
   return value;
@@ -54,6 +60,12 @@ export function list<T>(reader: Reader<T>): Reader<readonly T[]> {
     return value.map((item, index) => reader(item, `${path}[${index}]`));
   };
 }
+
+export const pair: Reader<readonly [number, number]> = (value, path) => {
+  const [first, second, ...more] = list(number)(value, path);
+  if (first === undefined || second === undefined || more.length > 0) throw wrong(path, 'two numbers', value);
+  return [first, second];
+};
 
 export function dictionary<T>(reader: Reader<T>): Reader<Record<string, T>> {
   return (value, path) =>

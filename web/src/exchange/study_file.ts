@@ -1,5 +1,5 @@
 import { parse } from 'smol-toml';
-import { list, number, object, oneOf, optional, ReadError, text } from '../document/reader';
+import { above0, list, number, object, oneOf, optional, pair, ReadError, text } from '../document/reader';
 import { isBlur, isCurvature } from '../document/film';
 import { componentNamed } from '../document/proposal';
 import type { Study, StudyPart } from '../document/study';
@@ -13,7 +13,7 @@ import { texts } from '../texts/texts';
 const readStudyText = object({
   name: optional(text),
   side: optional(oneOf('left', 'right')),
-  frames_per_s: optional(number),
+  frames_per_s: optional(above0),
   frames: optional(text),
   calibration: optional(text),
   film: optional(object({ curvature: optional(number), blur_px: optional(number), display: optional(oneOf(...DISPLAYS)) })),
@@ -25,9 +25,9 @@ const readStudyText = object({
       unit: optional(oneOf(...LENGTH_UNITS)),
       reference: optional(text),
       axes: optional(text),
-      nominal: optional(list(number)),
-      distance_mm: optional(number),
-      attenuation: optional(number),
+      nominal: optional(pair),
+      distance_mm: optional(above0),
+      attenuation: optional(above0),
     }),
   ),
 });
@@ -58,7 +58,6 @@ function roleOf({ role, name }: Pick<StudyText['component'][number], 'role' | 'n
 function readPart({ model, unit, reference, axes, nominal, distance_mm: distance, ...named }: StudyText['component'][number]): StudyPart[] {
   const component = roleOf(named);
   if (!component) return [];
-  const [x, y] = nominal ?? [];
   return [
     {
       component,
@@ -66,7 +65,7 @@ function readPart({ model, unit, reference, axes, nominal, distance_mm: distance
       unit,
       reference,
       axes: axes === null ? null : readStudyAxes(axes, component),
-      nominal: x === undefined || y === undefined ? null : [x, y],
+      nominal,
       distance,
     },
   ];

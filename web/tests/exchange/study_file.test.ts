@@ -86,6 +86,10 @@ describe('a study file', () => {
     ['side = "left"', 'side = "west"', /^study\.side should be "left" or "right"/],
     ['side = "left"', 'side = left', /^it is not read as a study: Invalid TOML/],
     ['distance_mm = 1080.0', 'distance_mm = "far"', /^study\.component\[1\]\.distance_mm should be a finite number/],
+    ['distance_mm = 1080.0', 'distance_mm = 0', /^study\.component\[1\]\.distance_mm should be a number above 0/],
+    ['frames_per_s = 15', 'frames_per_s = -15', /^study\.frames_per_s should be a number above 0/],
+    ['nominal = [5.0, -90]', 'nominal = [5.0]', /^study\.component\[1\]\.nominal should be two numbers/],
+    ['nominal = [5.0, -90]', 'attenuation = -1', /^study\.component\[1\]\.attenuation should be a number above 0/],
   ])('is refused with its place: %s as %s', (from, to, sentence) => {
     expect(() => readStudy(STUDY.replace(from, to))).toThrow(sentence);
   });
