@@ -29,7 +29,7 @@ const PITCH_MM: f64 = 0.4;
 /// From focus to implant in the library's views, mm.
 const LIBRARY_DISTANCE_MM: f64 = 900.0;
 
-/// How finely the implant is made that the firmware holds: some 6000 triangles, as real ones have.
+/// How finely the implant is made that the firmware holds: some 7000 triangles, as real ones have.
 const IMPLANT_RESOLUTION: f64 = 0.7;
 
 /// Between views from all directions, degrees.
