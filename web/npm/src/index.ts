@@ -53,7 +53,7 @@ export class Implant {
   }
 
   /**
-   * The pose that brings the model's outline onto a traced one, refined: about a second. With `hints.image` it is then brought
+   * The pose that brings the model's outline onto a traced one, refined: some tenths of a second. With `hints.image` it is then brought
    * onto the edges of the frame itself, where `hints.film` puts them. Throws a sentence about an outline from which no pose
    * can be found, and where the outline does not fit this model from any side.
    */
