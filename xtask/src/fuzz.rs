@@ -14,7 +14,7 @@ use crate::workspace;
 /// Options of `fuzz`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Targets, by turns: frames (images, DICOM, models: the files of `conformance`), libraries with right checksums, implants in one file, pose files \
+    after_help = "Targets, by turns: frames (images, DICOM, models: the files of `conformance`), libraries and implants in one file with right checksums, pose files \
 beside a second reader, calibrations, outlines to poses, and sessions. What is kept in tests/corpus, golden files and more are changed at random in one to six places. \
 Arithmetic is checked for overflow. What panics, or takes longer than 20 s, is kept below target/fuzz, and the verb fails; it prints how often each target ran since its last crash."
 )]

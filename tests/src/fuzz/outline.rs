@@ -20,22 +20,32 @@ pub(super) fn run(bytes: &[u8]) {
     let Ok(outline) = Outline::new(&points, SIDE, SIDE) else {
         return;
     };
-    let mut words = vec![0; words_needed(SIDE, SIDE)];
-    let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-    mask.fill_outline(&outline);
-    let mask = mask.into_mask();
     let model = FEMUR.model.as_model();
     let library = Library::open(&FEMUR.library).expect("whole");
-    let component = Component {
-        library: &library,
-        model: &model,
-        planes: &[],
-    };
+    look(
+        &Component {
+            library: &library,
+            model: &model,
+            planes: &[],
+        },
+        &outline,
+    );
+}
+
+/// Looks for the poses that explain an outline.
+///
+/// # Panics
+/// Where one of them is none.
+pub(super) fn look(component: &Component<'_>, outline: &Outline<'_>) {
+    let mut words = vec![0; words_needed(SIDE, SIDE)];
+    let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+    mask.fill_outline(outline);
+    let mask = mask.into_mask();
     let (camera, mut buffers) = (camera(), FinderBuffers::default());
-    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let mut memory = buffers.borrow(component, &camera, Kernels::PORTABLE);
     let (silhouette, options) = (Silhouette::from(&mask), RefineOptions::default());
     let Ok(found) = find(
-        &component,
+        component,
         &camera,
         &silhouette,
         Goal::Outline,
@@ -45,7 +55,7 @@ pub(super) fn run(bytes: &[u8]) {
         return;
     };
     for candidate in &found.candidates {
-        assert!(candidate.pose.is_rigid(1e-6), "no rotation");
+        assert!(candidate.pose.is_rigid(1e-5), "no rotation");
         let numbers = candidate.pose.translation;
         assert!(
             numbers.iter().all(|number| number.is_finite()),

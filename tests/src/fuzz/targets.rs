@@ -8,9 +8,10 @@ use fluoropose::image::mask::words_needed;
 use fluoropose::implant::{ArenaNeeds, ImplantFile};
 use fluoropose::library::Library;
 use fluoropose::pose::jts;
+use fluoropose::{Outline, Point};
 use fluoropose_decode::{FrameFile, decode_mask, decode_model, sniff};
 
-use super::made::FEMUR;
+use super::made::{FEMUR, SIDE};
 use super::{jts as second, outline};
 use crate::home;
 
@@ -29,7 +30,7 @@ pub enum Target {
     Frames,
     /// Libraries with checksums that are right for what they hold.
     Libraries,
-    /// Implants in one file, past their checksums.
+    /// Implants in one file with checksums that are right for what they hold.
     Implants,
     /// Pose files, beside a second reader.
     Poses,
@@ -42,10 +43,13 @@ pub enum Target {
 /// Most frames of a file that are decoded.
 const FRAMES: usize = 4;
 
-/// Where a library's header has its checksums, and where its body begins.
+/// Where a library's header has its checksums.
 const BODY_CRC: usize = 176;
 const HEADER_CRC: usize = 252;
-const BODY: usize = 256;
+/// The same of an implant's, and the length of its library.
+const IMPLANT_BODY_CRC: usize = 44;
+const IMPLANT_HEADER_CRC: usize = 316;
+const LIBRARY_BYTES: usize = 32;
 
 impl Target {
     /// Every one.
@@ -143,14 +147,7 @@ fn frames(bytes: &[u8], name: &str) {
 /// With the checksums that its bytes should have: what is behind them is read then.
 fn library(mut bytes: Vec<u8>) {
     let _ = Library::open(&bytes);
-    if bytes.len() < BODY {
-        return;
-    }
-    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-    let body = crc.checksum(&bytes[BODY..]);
-    bytes[BODY_CRC..BODY_CRC + 4].copy_from_slice(&body.to_le_bytes());
-    let header = crc.checksum(&bytes[..HEADER_CRC]);
-    bytes[HEADER_CRC..BODY].copy_from_slice(&header.to_le_bytes());
+    sum(&mut bytes, BODY_CRC, HEADER_CRC);
     let Ok(library) = Library::open(&bytes) else {
         return;
     };
@@ -170,6 +167,40 @@ fn implant(bytes: &[u8]) {
     if ImplantFile::trusted(bytes).is_ok() {
         let _ = ArenaNeeds::of(bytes, 64, 64);
     }
+    let mut bytes = bytes.to_vec();
+    sum_implant(&mut bytes);
+    let Ok(implant) = ImplantFile::open(&bytes) else {
+        return;
+    };
+    let corners = [(40.0, 30.0), (90.0, 40.0), (85.0, 100.0), (45.0, 90.0)];
+    let corners = corners.map(|(column, row)| Point::new(column, row));
+    let outline = Outline::new(&corners, SIDE, SIDE).expect("simple");
+    outline::look(&implant.component(), &outline);
+}
+
+/// Writes the checksums of what an implant file holds, of its library first.
+fn sum_implant(bytes: &mut [u8]) {
+    let number = |bytes: &[u8], at: usize| bytes.get(at..at + 4)?.try_into().ok();
+    let Some(library) = number(bytes, LIBRARY_BYTES).map(u32::from_le_bytes) else {
+        return;
+    };
+    if let Some(at) = bytes.len().checked_sub(library as usize) {
+        sum(&mut bytes[at..], BODY_CRC, HEADER_CRC);
+    }
+    sum(bytes, IMPLANT_BODY_CRC, IMPLANT_HEADER_CRC);
+}
+
+/// Writes the checksums of a file's body, which begins behind that of the header.
+fn sum(bytes: &mut [u8], body_crc: usize, header_crc: usize) {
+    let body = header_crc + 4;
+    if bytes.len() < body {
+        return;
+    }
+    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+    let of_body = crc.checksum(&bytes[body..]);
+    bytes[body_crc..body_crc + 4].copy_from_slice(&of_body.to_le_bytes());
+    let of_header = crc.checksum(&bytes[..header_crc]);
+    bytes[header_crc..body].copy_from_slice(&of_header.to_le_bytes());
 }
 
 fn poses(text: &str) {
