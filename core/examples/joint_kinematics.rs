@@ -10,9 +10,9 @@ use fluoropose::{EulerPose, Pose, Side, coronal_tilt_deg, joint_angles, relative
 
 const FEMUR: &str = "JT_EULER_312
 x_tran, y_tran, z_tran, z_rot, x_rot, y_rot
-10.0, -20.0, -950.0,  0.0, 0.0, 0.0
-11.0, -21.0, -951.0, 15.0, 0.0, 0.0
-12.0, -22.0, -952.0, 30.0, 0.0, 0.0
+10.0, -20.0, -950.0,   0.0, 0.0, 0.0
+11.0, -21.0, -951.0, -15.0, 0.0, 0.0
+12.0, -22.0, -952.0, -30.0, 0.0, 0.0
 ";
 const TIBIA: &str = "JT_EULER_312
 x_tran, y_tran, z_tran, z_rot, x_rot, y_rot
@@ -68,8 +68,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         flexions.push(joint.flexion_deg);
     }
     if arguments.is_empty() {
-        // The femoral component rotated by 0, 15 and 30 degrees over a tibial one that stood still.
-        let expected = [0.0, -15.0, -30.0];
+        // The femoral component rotated by 0, -15 and -30 degrees over a tibial one that stood still.
+        let expected = [0.0, 15.0, 30.0];
         assert!(
             flexions
                 .iter()
