@@ -67,7 +67,7 @@ pub fn elsewhere(
 
 /// Where the pose leads that another way through the film came to; `None` where that is the frame's own.
 #[must_use]
-pub fn from_other_way(
+pub(super) fn from_other_way(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     (own, other): (&FramePose, &Pose),

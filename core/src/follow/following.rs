@@ -403,7 +403,9 @@ impl Following {
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
         let &own = self.cells[frame].found()?;
-        let way = self.way_to_compare(frame);
+        let compares = self.phase == Phase::Compare;
+        let way = compares.then(|| self.settling.way_to_compare(frame, &self.cells));
+        let way = way.flatten();
         let other = way.and_then(|pose| from_other_way(subject, image, (&own, &pose), memory));
         let sample = SideSample {
             frame,
@@ -417,16 +419,6 @@ impl Following {
             _ => self.settling.saw(sample),
         }
         Some(own)
-    }
-
-    /// Where the film came to another pose of a frame from its other end that is the pose to compare with, unless its mirror image is open.
-    fn way_to_compare(&self, frame: usize) -> Option<Pose> {
-        let margins = self.settling.margins(&self.cells);
-        let margin = margins.get(frame).copied().flatten();
-        let is_open =
-            margin.is_some_and(|other| other.rival == Rival::Mirrored && !other.decides());
-        let way = self.cells[frame].other_way;
-        way.filter(|_| self.phase == Phase::Compare && !is_open)
     }
 
     fn see_from_elsewhere(

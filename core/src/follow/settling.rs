@@ -23,6 +23,7 @@ use super::side_samples::{
 use super::sides::{Rival, SideStep, choose_sides};
 use super::trail::Trail;
 use crate::math::Vector3;
+use crate::pose::Pose;
 
 /// So often sides are chosen anew where a way that went over rocks.
 const SIDES_AGAIN: usize = 2;
@@ -228,6 +229,14 @@ impl Settling {
     #[must_use]
     pub fn margins(&self, cells: &[Cell]) -> Vec<Option<SideMargin>> {
         other_margins(&self.samples, &self.steps, &self.elsewhere, cells)
+    }
+
+    /// Where the film came to another pose of a frame from its other end that is the pose to compare with, unless its mirror image is open.
+    pub fn way_to_compare(&self, frame: usize, cells: &[Cell]) -> Option<Pose> {
+        let margin = self.margins(cells).get(frame).copied().flatten();
+        let is_mirror_open =
+            margin.is_some_and(|other| other.rival == Rival::Mirrored && !other.decides());
+        cells[frame].other_way.filter(|_| !is_mirror_open)
     }
 
     /// The next jump, and `after` the last one.
