@@ -94,13 +94,13 @@ function ThemeAndKeys({ state }: { state: State }) {
 }
 
 function UndoAndRedo({ state }: { state: State }) {
-  const { store } = useApp().services;
+  const { actions } = useApp();
   const undoStep = nextUndo(state.history);
   const redoStep = nextRedo(state.history);
   return (
     <>
-      <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => store.undo()} />
-      <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => store.redo()} />
+      <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => actions.run({ name: 'undo' })} />
+      <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => actions.run({ name: 'redo' })} />
     </>
   );
 }
@@ -135,7 +135,8 @@ function WayOn({ state }: { state: State }) {
       class={following ? 'button' : 'button primary'}
       aria-keyshortcuts="Shift+G"
       title={following ? texts.follow.stopTitle : texts.follow.title}
-      onClick={() => actions.run({ name: 'work', command: 'follow-film' })}
+      // The second click of a double click would stop what the first began.
+      onClick={({ detail }) => detail < 2 && actions.run({ name: 'work', command: 'follow-film' })}
     >
       {following ? texts.follow.stop : texts.follow.button}
     </button>
