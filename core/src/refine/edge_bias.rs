@@ -26,10 +26,21 @@ const KNOWN_PX: f64 = 0.1;
 /// Edges that move farther than this have jumped to others, pixels.
 const JUMP: f64 = 1.0;
 
+/// Ways in which a mask lies off by where its outline faces: shifted to the right, downwards; wider along one line than across, along its diagonal.
+const UNEVEN: usize = 4;
+
+/// How far the outline at a sample lies off by each of them, where it is one at most.
+fn uneven(sample: &BorderPixel) -> [f32; UNEVEN] {
+    let [right, down] = sample.normal();
+    [right, down, right * right - down * down, 2.0 * right * down]
+}
+
 /// Sums over the samples of all grey frames.
 #[derive(Default)]
 pub(super) struct EdgeBias {
     information: Matrix6,
+    /// By one standard deviation of each way in which masks are uneven.
+    uneven: [[f64; 6]; UNEVEN],
     /// By one standard deviation of each constant, and by the common distance.
     pulls: [[f64; 6]; CONSTANTS + 1],
     correlation: [[f64; CONSTANTS]; CONSTANTS],
@@ -89,6 +100,7 @@ impl EdgeBias {
             (Target::Silhouette(silhouette), _) => {
                 let common = silhouette.common_offset().deviation_px;
                 self.add_moved((border, motion), common, |_, _| [0.0; CONSTANTS]);
+                self.add_uneven((border, motion), silhouette.uneven_px());
             }
             (Target::Image(_), None) => {
                 let common = CommonOffset::ON_EDGES.deviation_px;
@@ -152,10 +164,36 @@ impl EdgeBias {
         }
     }
 
+    /// Adds how far a mask's outline lies off where one side of it lies off by `px` and another does not. A whole outline that is shifted, or wider along
+    /// one line than across, leaves as little as one that is wider everywhere: the pose goes along.
+    fn add_uneven(&mut self, (border, motion): (&[BorderPixel], &Motion), px: f64) {
+        if px <= 0.0 {
+            return;
+        }
+        self.any = true;
+        for block in border.chunks(BLOCK) {
+            let mut pulls = [[0.0; 6]; UNEVEN];
+            for sample in block.iter().filter(|sample| sample.has_residual()) {
+                let jacobian = motion.jacobian(sample);
+                for (pull, part) in pulls.iter_mut().zip(uneven(sample)) {
+                    let moved = sample.weight * part * px as f32;
+                    for (sum, a) in pull.iter_mut().zip(&jacobian) {
+                        *sum += moved * a;
+                    }
+                }
+            }
+            add_to(&mut self.uneven, &pulls);
+        }
+    }
+
     /// How far a pose may be off by each constant and by the common distance, where anything is known of them.
     fn shifts(&self) -> Option<[[f64; 6]; CONSTANTS + 1]> {
-        let inverse = inverse_spd(&self.information).filter(|_| self.any)?;
+        let inverse = self.inverse()?;
         Some(self.pulls.map(|pull| times(&inverse, &pull)))
+    }
+
+    fn inverse(&self) -> Option<Matrix6> {
+        inverse_spd(&self.information).filter(|_| self.any)
     }
 
     /// The common distance by what residuals say of it, in usual ones. What traced a mask errs otherwise from corner to corner, and would hide it.
@@ -191,9 +229,10 @@ impl EdgeBias {
 
     /// Adds how far a pose may be off by it.
     pub(super) fn widen(&self, covariance: PoseCovariance, errors: Errors) -> PoseCovariance {
-        let Some(shifts) = self.shifts() else {
+        let (Some(shifts), Some(inverse)) = (self.shifts(), self.inverse()) else {
             return covariance;
         };
+        let uneven = self.uneven.map(|pull| times(&inverse, &pull));
         let mut matrix = covariance.matrix;
         let of = |shift: &[f64; 6], number: usize| shift.get(number).copied().unwrap_or_default();
         let (constants, [common]) = shifts.split_at(CONSTANTS) else {
@@ -204,6 +243,9 @@ impl EdgeBias {
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
                 *value += of(common, row) * of(common, column);
+                for one in &uneven {
+                    *value += of(one, row) * of(one, column);
+                }
                 for (one, correlated) in constants.iter().zip(&self.correlation) {
                     for (other, correlation) in constants.iter().zip(correlated) {
                         *value += correlation * of(one, row) * of(other, column);
@@ -403,6 +445,74 @@ mod tests {
                     size[k]
                 );
             }
+        }
+    }
+
+    /// Oracle: a mask that is shifted as a whole belongs to a part that is shifted as much, and each way to be uneven leaves what the normal equations,
+    /// sample by sample in 64 bits, leave of it.
+    #[test]
+    fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
+        let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
+        let motion = Motion::in_camera(&camera, &[0.0, 0.0, -590.0]);
+        let border = samples();
+        let with = |px: f64| {
+            let mut bias = EdgeBias::default();
+            bias.add_moved((&border, &motion), 0.0, |_, _| [0.0; CONSTANTS]);
+            bias.add_uneven((&border, &motion), px);
+            bias
+        };
+        let none = PoseCovariance {
+            matrix: [[0.0; 6]; 6],
+        };
+        let errors = || Errors {
+            noise: 1.0,
+            curvature: 1.0,
+        };
+        assert_eq!(with(0.0).widen(none, errors()), none);
+        let bias = with(0.5);
+        let inverse = bias.inverse().expect("determined");
+        let shifts = bias.uneven.map(|pull| times(&inverse, &pull));
+        for (which, shift) in shifts.iter().enumerate() {
+            let (mut left, mut size) = ([0.0f64; 6], [0.0f64; 6]);
+            for sample in border.iter().filter(|sample| sample.has_residual()) {
+                let [right, down] = sample.normal().map(f64::from);
+                let angle = libm::atan2(down, right);
+                let moved = 0.5
+                    * match which {
+                        0 => libm::cos(angle),
+                        1 => libm::sin(angle),
+                        2 => libm::cos(2.0 * angle),
+                        _ => libm::sin(2.0 * angle),
+                    };
+                let jacobian = motion.jacobian(sample).map(f64::from);
+                let along: f64 = jacobian.iter().zip(shift).map(|(a, b)| a * b).sum();
+                for k in 0..6 {
+                    let by = f64::from(sample.weight) * jacobian[k];
+                    left[k] += by * (moved - along);
+                    size[k] += (by * moved).abs();
+                }
+            }
+            for k in 0..6 {
+                assert!(
+                    left[k].abs() < 1e-3 * size[k],
+                    "{which} {k}: {left:?} of {size:?}"
+                );
+            }
+        }
+        // Half a pixel at 575 to 600 mm, of 900 pixels of focal length.
+        let [right, down, ..] = shifts;
+        assert!(
+            (0.31..0.34).contains(&right[3]) && right[4].abs() < 0.01,
+            "{right:?}"
+        );
+        assert!(
+            (-0.34..-0.31).contains(&down[4]) && down[3].abs() < 0.01,
+            "{down:?}"
+        );
+        let wide = bias.widen(none, errors()).matrix;
+        for (k, row) in wide.iter().enumerate() {
+            let due: f64 = shifts.iter().map(|shift| shift[k] * shift[k]).sum();
+            assert!((row[k] - due).abs() < 1e-12 * due.max(1.0), "{k}");
         }
     }
 

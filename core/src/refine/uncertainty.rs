@@ -55,8 +55,8 @@ pub struct Assessment {
     /// stretches of an outline determine their own variance poorly, which the width allows for.
     ///
     /// It knows of random errors that vary along the outline and, on grey frames, of what is not known of the film
-    /// ([`super::ImageTarget::film`]). What else shifts the whole outline alike (a trace that is everywhere too wide, a wrong
-    /// calibration) leaves no residual and is not in it. Of a model that is known to be round the turn about its axis has the deviation of an angle of
+    /// ([`super::ImageTarget::film`]), of masks how far they may be too wide everywhere ([`crate::image::silhouette::CommonOffset`]) or on one side.
+    /// What else shifts the whole outline alike (more of that, a wrong calibration) leaves no residual and is not in it. Of a model that is known to be round the turn about its axis has the deviation of an angle of
     /// which nothing is known.
     /// `None` where the outline does not determine the pose.
     pub covariance: Option<PoseCovariance>,

@@ -76,3 +76,72 @@ fn a_common_offset_is_found_taken_away_and_told() {
     let [off, _] = depth(&model, &camera, wide.lying_off(known));
     assert!(off.abs() < 0.5, "{off}");
 }
+
+/// Another hand or another exposure draws one side of a mask too wide and not the other: all of the outline is shifted then, and wider along one line
+/// than across, which leaves as little as an outline that is wider everywhere. What is told of a pose holds for that too.
+#[test]
+fn a_mask_that_is_too_wide_on_one_side_is_told_with_deviations_that_hold() {
+    let (femur, camera) = (femur(), camera());
+    let words = silhouette(&camera, &Placed::at_rest(&femur, SEEN_FEMUR.into())).expect("drawn");
+    let mask = Mask::new(&words, camera.width(), camera.height()).expect("fits");
+    let model = surface(femur);
+    let model = model.as_model();
+    for (right, down) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+        let wide = widened_towards(&mask, right, down, 2);
+        let wide = wide.mask();
+        let told = off_in_deviations(&model, &camera, Silhouette::from(&wide));
+        assert!(
+            told.iter().all(|off| *off < 4.0),
+            "{right} {down}: {told:.1?}"
+        );
+        let drawn = Silhouette::from(&wide).laid_by(OutlineOrigin::Drawn);
+        let certain = off_in_deviations(&model, &camera, drawn);
+        let worst = |off: [f64; 6]| off.into_iter().fold(0.0, f64::max);
+        assert!(
+            worst(certain) > 1.5 * worst(told),
+            "{certain:.1?} {told:.1?}"
+        );
+    }
+}
+
+/// The same with so many pixels more on one side.
+fn widened_towards(mask: &Mask<'_>, right: isize, down: isize, pixels: isize) -> MaskBuffer {
+    let (width, height) = (mask.width(), mask.height());
+    let mut wide = MaskBuffer::new(width, height).expect("a mask");
+    let is_set = |column: usize, row: usize| {
+        (0..=pixels).any(|step| {
+            let place = (
+                column.checked_add_signed(-step * right),
+                row.checked_add_signed(-step * down),
+            );
+            matches!(place, (Some(column), Some(row)) if column < width && row < height && mask.get(column, row))
+        })
+    };
+    wide.draw(|wide| {
+        for (column, row) in (0..height).flat_map(|row| (0..width).map(move |c| (c, row))) {
+            wide.set(column, row, is_set(column, row));
+        }
+    });
+    wide
+}
+
+/// How far each number of the pose is off, in its own standard deviations.
+fn off_in_deviations(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 6] {
+    let (view, mut buffers) = ([CameraView::only(camera, seen)], RefineBuffers::default());
+    let mut memory = buffers.borrow(model, camera);
+    let (truth, options) = (Pose::from(SEEN_FEMUR), RefineOptions::default());
+    let refined = refine(model, &view, &truth, options, &mut memory).expect("refined");
+    let told = assess(model, &view, &refined, &mut memory).expect("assessed");
+    let covariance = told.covariance.expect("determined");
+    let one = covariance.deviations(&refined.pose, &model.bounds().centre);
+    let (found, truth) = (EulerPose::from(refined.pose), SEEN_FEMUR);
+    [
+        (found.x_mm - truth.x_mm) / one.x_mm,
+        (found.y_mm - truth.y_mm) / one.y_mm,
+        (found.z_mm - truth.z_mm) / one.z_mm,
+        (found.z_rot_deg - truth.z_rot_deg) / one.z_rot_deg,
+        (found.x_rot_deg - truth.x_rot_deg) / one.x_rot_deg,
+        (found.y_rot_deg - truth.y_rot_deg) / one.y_rot_deg,
+    ]
+    .map(f64::abs)
+}

@@ -16,7 +16,7 @@ use crate::finding::FrameFound;
 /// What the tables hold, for the help of the verbs that write them.
 pub const HELP: &str = "\
 The uncertainty table has a row a frame: the pose (mm, degrees), one standard deviation (1 SD) of each of its numbers, of random errors \
-along the outline, and of a trace that is half a pixel too wide or too narrow everywhere (more is not in it; the library alone gives none), \
+along the outline, and of a trace that is half a pixel too wide or too narrow everywhere, or on one side (more is not in it; the library alone gives none), \
 the residual (root of twice the robust loss, pixels), the offset of the edges where --edge-offset found one, the verdict (good, doubtful or none) and why, what decided for \
 this pose, and the best of the other poses (one that nothing ruled out, where there is any) with its residual. A frame without a pose has a row that says so.";
 
