@@ -32,17 +32,57 @@ pub enum MaskRule {
     AtLeast(u16),
 }
 
+/// Parts of the largest value between 0 and it that are told apart.
+const GRADES: usize = 64;
+/// So many of them are probabilities or smoothed edges: labels of components are fewer.
+const GRADED: usize = 8;
+
 /// Decodes a mask image. Every pixel that is not 0 is inside; in a JPEG, whose coding leaves ripples around every edge,
-/// every pixel of at least 128.
+/// every pixel of at least 128; where values are graded, as a network's probabilities and smoothed edges are, every pixel of at least half the largest:
+/// the outline of what is merely not 0 lies some pixels outside.
 ///
 /// # Errors
 /// [`DecodeError`] if the file is not an image, is damaged, too large, or holds more than one frame.
 pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
+    let frame = only_frame(bytes, name)?;
     let rule = match crate::sniff::sniff(bytes, name) {
         Kind::Jpeg => MaskRule::AtLeast(128),
-        _ => MaskRule::NonZero,
+        _ => rule_of(&frame),
     };
-    decode_mask_by(bytes, name, rule)
+    Ok(mask_of(&frame, rule))
+}
+
+/// The rule for the values of a mask that no coding has changed.
+fn rule_of(frame: &GreyFrame) -> MaskRule {
+    let (most, grades) = match &frame.pixels {
+        Pixels::U8(p) => grades(p),
+        Pixels::U16(p) => grades(p),
+    };
+    match grades < GRADED {
+        true => MaskRule::NonZero,
+        false => MaskRule::AtLeast(most.div_ceil(2)),
+    }
+}
+
+/// The largest value, and how many parts of it occur between 0 and it.
+fn grades<T: Copy + Into<u16>>(pixels: &[T]) -> (u16, usize) {
+    let most = pixels.iter().map(|&v| v.into()).max().unwrap_or(0);
+    let mut seen = [false; GRADES];
+    for value in pixels.iter().map(|&v| v.into()) {
+        if value > 0 && value < most {
+            let grade = usize::from(value) * GRADES / usize::from(most);
+            seen[grade.min(GRADES - 1)] = true;
+        }
+    }
+    (most, seen.iter().filter(|&&seen| seen).count())
+}
+
+fn only_frame(bytes: &[u8], name: &str) -> Result<GreyFrame, DecodeError> {
+    let file = FrameFile::open(bytes, name)?;
+    match file.count() {
+        1 => file.frame(0),
+        count => Err(Problem::SeveralMasks { count }.of(name)),
+    }
 }
 
 /// Decodes a mask image by a rule.
@@ -50,11 +90,7 @@ pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
 /// # Errors
 /// Those of [`decode_mask`].
 pub fn decode_mask_by(bytes: &[u8], name: &str, rule: MaskRule) -> Result<MaskImage, DecodeError> {
-    let file = FrameFile::open(bytes, name)?;
-    match file.count() {
-        1 => Ok(mask_of(&file.frame(0)?, rule)),
-        count => Err(Problem::SeveralMasks { count }.of(name)),
-    }
+    Ok(mask_of(&only_frame(bytes, name)?, rule))
 }
 
 /// The mask of a decoded frame.

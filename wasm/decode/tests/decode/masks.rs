@@ -38,6 +38,32 @@ fn ripples_of_jpeg_are_not_inside() {
     assert_eq!(mask.pixels, due);
 }
 
+/// The outline of a network's probabilities, and of edges that a program smoothed, is where they are a half.
+#[test]
+fn half_the_largest_of_graded_values_is_inside() {
+    let ramp: Vec<u8> = (0..32)
+        .map(|at| 255 * at / 31)
+        .map(|v: u32| v as u8)
+        .collect();
+    let due = |at: usize| u8::from(at >= 16);
+    let mask = |pixels: &[u8]| {
+        let file = png(32, 1, ColorType::Grayscale, BitDepth::Eight, pixels);
+        decode_mask(&file, "m.png").unwrap().pixels
+    };
+    assert_eq!(mask(&ramp), (0..32).map(due).collect::<Vec<_>>());
+    // A network that is never sure, and words in place of bytes.
+    let weak: Vec<u8> = ramp.iter().map(|v| v / 3).collect();
+    assert_eq!(mask(&weak), (0..32).map(due).collect::<Vec<_>>());
+    let words: Vec<u8> = ramp.iter().flat_map(|&v| [v, v]).collect();
+    let file = png(32, 1, ColorType::Grayscale, BitDepth::Sixteen, &words);
+    let words = decode_mask(&file, "m.png").unwrap().pixels;
+    assert_eq!(words, (0..32).map(due).collect::<Vec<_>>());
+    // Labels are few.
+    let labels: Vec<u8> = (0..32).map(|at| at % 7).collect();
+    let labelled: Vec<u8> = labels.iter().map(|&label| label.min(1)).collect();
+    assert_eq!(mask(&labels), labelled);
+}
+
 #[test]
 fn several_pages_are_refused() {
     let file = tiff(Compression::Uncompressed, |encoder| {

@@ -35,7 +35,7 @@ use other::Other;
 /// Options of `pose`.
 #[derive(clap::Args)]
 #[command(
-    after_help = format!("Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant; their names' order is \
+    after_help = format!("Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant (of graded values, as probabilities, what is at least half the largest); their names' order is \
 the order of the frames. Where two poses fit nearly alike both are printed, and why one was chosen: by its residual, where it decides; by the \
 coronal tilt against the other component, where --counterpart tells its poses; by continuity over the frames. A verdict says how far a \
 pose is to be trusted: good, doubtful or none, with the reason. A frame without a pose has a row of six times NaN. --method image brings the pose from each mask onto the edges of its grey frame in --frames.\n\n\
