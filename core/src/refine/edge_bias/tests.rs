@@ -117,9 +117,8 @@ fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
         bias.add_uneven((&border, &motion), px);
         bias
     };
-    let none = PoseCovariance {
-        matrix: [[0.0; 6]; 6],
-    };
+    let matrix = [[0.0; 6]; 6];
+    let none = PoseCovariance { matrix };
     let errors = || Errors {
         noise: 1.0,
         curvature: 1.0,
