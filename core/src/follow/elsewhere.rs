@@ -66,6 +66,7 @@ pub fn elsewhere(
 }
 
 /// Where the pose leads that another way through the film came to; `None` where that is the frame's own.
+#[cfg(feature = "alloc")]
 #[must_use]
 pub(super) fn from_other_way(
     subject: &Subject<'_>,
