@@ -51,7 +51,7 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
     const isJudged = isFollowed(cell.result) && !isSoFar(cell.result);
     // Sessions from before `own` do not know what is said of it now.
     const isLed = !isDoubtful && verdictAlone(cell.result)?.because === texts.follow.fromDoubtful;
-    const isDone = !isOpen && !isLed && isJudged && cell.result !== null && isFromThese(cell.result.origin, given, frame, true);
+    const isDone = !isOpen && !isLed && isJudged && cell.result !== null && isFollowedWith(cell.result.origin, given, frame);
     return isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
@@ -75,8 +75,8 @@ export function isLed(doc: Doc, component: ComponentName): boolean {
 }
 
 /**
- * Poses that lead: those that a person set, traced, opened or checked, and what the program found where nobody set any. Doubtful ones lead
- * only where there is nothing better.
+ * Poses that lead: those that a person set, traced, opened or checked, and what the program found, unless somebody set another and the film
+ * found it wrong. Doubtful ones lead only where there is nothing better.
  */
 function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
   const all = doc.frames.flatMap(({ id }, frame) => givenIn(doc, { frameId: id, component }, frame) ?? []);
@@ -114,16 +114,25 @@ function leadsAmong(given: readonly Given[], frame: number): readonly Given[] {
 }
 
 /**
- * Was a frame followed from these? `acceptedToo`: or together with those that somebody found right as they were, for which it need not be
- * followed again. Constants of the film that are a little others move a clicked pose a little, there and back: its own
+ * Was a frame followed from these? Constants of the film that are a little others move a clicked pose a little, there and back: its own
  * frame leads from both places to the same pose, and so do those beside it.
  */
-function isFromThese(origin: string, given: readonly Given[], frame: number, acceptedToo = false): boolean {
+function isFromThese(origin: string, given: readonly Given[], frame: number): boolean {
   if (origin.endsWith(keyAmong(given, frame))) return true;
   const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
-  const isOneOf = ({ frame, pose, isClicked }: Given) => led.some((one) => one.frame === frame && (isClicked ? isCorrectedUnseen : isNearUnseen)(one.pose, pose));
-  if (acceptedToo) return led.length > 0 && leads.every((lead) => lead.isAccepted || isOneOf(lead)) && (led.length <= leads.length || leads.some(({ isAccepted }) => isAccepted));
-  return led.length === leads.length && leads.every(isOneOf);
+  return led.length === leads.length && leads.every((lead) => isOneOf(led, lead));
+}
+
+/** The same, or was it followed together with what somebody found right as it was? For that it need not be followed again. */
+function isFollowedWith(origin: string, given: readonly Given[], frame: number): boolean {
+  if (isFromThese(origin, given, frame)) return true;
+  const [led, leads] = [ledBy(origin), leadsAmong(given, frame)];
+  const isAny = led.length > 0 && leads.some(({ isAccepted }) => isAccepted);
+  return isAny && leads.every((lead) => lead.isAccepted || isOneOf(led, lead));
+}
+
+function isOneOf(led: readonly Pick<Given, 'frame' | 'pose'>[], { frame, pose, isClicked }: Given): boolean {
+  return led.some((one) => one.frame === frame && (isClicked ? isCorrectedUnseen : isNearUnseen)(one.pose, pose));
 }
 
 /** What `keyAmong` wrote. */
