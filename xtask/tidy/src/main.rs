@@ -56,11 +56,16 @@ fn report(findings: &Findings, long_counts: bool) -> bool {
             say(&format!("too long: {long}\n"));
         }
     }
-    let (errors, long) = (findings.errors.len(), findings.long.len());
+    let long = findings.long.len();
+    let (counted, hint) = match long_counts {
+        true => (long, ""),
+        false => (0, " (--long lists them and makes them errors)"),
+    };
+    let errors = findings.errors.len() + counted;
     say(&format!(
-        "{errors} errors; {long} files or functions that are long (--long lists them and makes them errors)\n"
+        "{errors} errors; {long} files or functions that are long{hint}\n"
     ));
-    errors == 0 && (long == 0 || !long_counts)
+    errors == 0
 }
 
 /// Prints; where nobody reads on, as behind `| head`, nothing is lost by that.
