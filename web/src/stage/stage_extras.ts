@@ -54,6 +54,30 @@ function drawGhost(context: Context, view: Viewport, component: ComponentName, {
   context.restore();
 }
 
+// --- Clicks that are being answered -------------------------------------------------------------------------------------
+
+/** CSS pixels around the place of a click. */
+const CLICK_RING = 12;
+/** What is shown of a ring before anything is done. */
+const BEGUN = 0.06;
+
+/** How far the answer to each click on the frame is, where somebody clicked and looks. */
+export function drawClicks(context: Context, { ui: { jobs } }: State, frame: FrameEntry, view: Viewport): void {
+  for (const { at, place, done, total } of jobs) {
+    if (!at || place?.frameId !== frame.id) continue;
+    const { x, y } = canvasFromFrame(view, at);
+    const ring = (part: number, colour: string, width: number) => {
+      context.beginPath();
+      context.arc(x, y, CLICK_RING, -TAU / 4, TAU * (part - 1 / 4));
+      context.lineWidth = width;
+      context.strokeStyle = colour;
+      context.stroke();
+    };
+    ring(1, HALO, 5);
+    ring(Math.max(BEGUN, total > 0 ? done / total : 0), COMPONENT_COLOURS[place.component].light, 3);
+  }
+}
+
 // --- The set to compare with -------------------------------------------------------------------------------------------
 
 export class ReferenceLayers {

@@ -23,7 +23,7 @@ import { FrameLayer, OverlayLayer } from './layers';
 import { drawMisses } from './misses';
 import { pointerStore } from '../commands/pointer';
 import { Shading } from './shading';
-import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
+import { drawClicks, drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
 import { texts } from '../texts/texts';
 
 const NOTHING: Hit = { kind: 'nothing' };
@@ -130,6 +130,7 @@ export class StageView {
     this.#mainView = view;
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
     if (frame && !state.ui.overlaysHidden) this.#drawPreview(context, state, view, preview);
+    if (frame) drawClicks(context, state, frame, view);
     if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
     if (frame) this.#drawMeasuring(context, state, frame, view);
     if (frame) this.#drawLens(context, state, frame, view);
@@ -155,6 +156,7 @@ export class StageView {
     for (const component of COMPONENT_NAMES) points.push(...(cellOf(history.present, frame?.id, component).outline?.points ?? []));
     points.push(...pointsOfPreview(preview));
     const drawn = points.map((point) => canvasFromFrame(view, point));
+    for (const { at, place } of ui.jobs) if (at && place?.frameId === frame?.id) drawn.push(canvasFromFrame(view, at));
     // A draft's last side ends at the pointer.
     if ((tool === 'trace' || this.#byKeys) && this.#pointer) drawn.push(this.#pointer);
     return boxRound(drawn, this.#size);
