@@ -19,7 +19,7 @@ import { texts } from '../texts/texts';
 import { TracingActions } from './tracing_actions';
 import { download, droppedFiles, pickFiles } from '../exchange/browser_files';
 import { troubleOf } from '../exchange/trouble';
-import { fileStem } from '../terms/file_name';
+import { sessionName } from '../terms/file_name';
 import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';
 import { componentToOutline } from '../results/steps';
@@ -342,7 +342,7 @@ export class Actions {
     const { saveSession } = await import('../exchange/saver');
     const doc = store.doc;
     const { parts, without } = await saveSession(this.#services, includeFiles);
-    download(parts, `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
+    download(parts, sessionName(doc.name, includeFiles), 'application/json');
     store.markSaved(doc);
     store.show({ savedAt: Date.now() });
     if (without.length > 0) store.say('error', texts.said.sessionSavedWithout(texts.listed(without)));

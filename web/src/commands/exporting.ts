@@ -2,7 +2,7 @@ import { cellOf, type Doc, type Outline } from '../document/types';
 import { poseTable } from '../document/session/table';
 import { writeCoco } from '../exchange/coco';
 import { download } from '../exchange/browser_files';
-import { fileStem } from '../terms/file_name';
+import { fileStem, sessionName } from '../terms/file_name';
 import { exportMasks } from '../exchange/exporter';
 import { writeOutlines } from '../exchange/outline_file';
 import { posesOf } from '../exchange/pose_rows';
@@ -34,7 +34,7 @@ export function fileName({ name, frames }: Doc, { kind, forms, component, column
   const stem = fileStem(name);
   switch (kind) {
     case 'session':
-      return forms.session === 'study' ? 'study.toml' : `${stem}.fluoropose.json`;
+      return forms.session === 'study' ? 'study.toml' : sessionName(name, forms.session === 'whole');
     case 'results':
       return `${stem}_results.zip`;
     case 'poses':

@@ -13,3 +13,8 @@ export function fileStem(text: string, otherwise = 'study'): string {
   const stem = Array.from(letters.replace(/^\.+/, '')).slice(0, LONGEST).join('').replace(/\.+$/, '');
   return DEVICE.test(stem) ? `_${stem}` : stem || otherwise;
 }
+
+/** A session with its files and one without: neither is written over the other. */
+export function sessionName(work: string, withFiles: boolean): string {
+  return `${fileStem(work)}${withFiles ? '' : '_without_files'}.fluoropose.json`;
+}

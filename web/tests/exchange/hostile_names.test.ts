@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { Cells } from '../../src/document/cells';
 import { poseTable, tableOf } from '../../src/document/session/table';
 import { cellKey, EMPTY_DOC, type Doc, type Outline } from '../../src/document/types';
-import { fileStem } from '../../src/terms/file_name';
+import { fileStem, sessionName } from '../../src/terms/file_name';
 import { masksOf } from '../../src/exchange/exporter';
 import { framePoint } from '../../src/geometry/points';
 
@@ -53,7 +53,11 @@ function isSafe(name: string): boolean {
 describe('names of files', () => {
   it.each(HOSTILE.map((name, at) => [at, name] as const))('number %i begins one that is safe everywhere', (_, name) => {
     const stem = fileStem(name);
-    for (const ending of ['.mot', '.fluoropose.json', '_joint.csv']) expect(isSafe(stem + ending), stem + ending).toBe(true);
+    for (const file of [`${stem}.mot`, sessionName(name, false), `${stem}_joint.csv`]) expect(isSafe(file), file).toBe(true);
+  });
+
+  it('of a session with its files and of one without are two', () => {
+    expect([true, false].map((withFiles) => sessionName('knee 7', withFiles))).toEqual(['knee_7.fluoropose.json', 'knee_7_without_files.fluoropose.json']);
   });
 
   it('say what the study is called where they can', () => {
