@@ -210,6 +210,7 @@ function openAsFrames(services: Services, files: readonly Incoming[]): Promise<b
   return inTurn(services.store, async (work) => {
     const outcome = noOutcome();
     await openFrames(services, work, files, outcome);
+    if (work.isHere()) outcome.failed.push(...sizesAmong(services.store.doc.frames, files.length));
     tell(services, outcome);
   });
 }
