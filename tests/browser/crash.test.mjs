@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
 import { ADDRESS, atRest, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
 import { evict } from './support/eviction.mjs';
-import { exported, openExport } from './support/exporting.mjs';
+import { exported, openExport, savedFile } from './support/exporting.mjs';
 import { choose, temporaryFolder } from './support/files.mjs';
 import { png } from './support/frames.mjs';
 import { startBrowser } from './support/own_browser.mjs';
@@ -102,9 +102,11 @@ test('storage that is cleared under work that came back from it', { timeout: 3 *
   });
 
   await t.test('a session file is without them, and that is said', async () => {
-    const session = JSON.parse((await exported(page, 'Session')).buffer.toString());
+    const sheet = await openExport(page, 'Session');
+    const session = JSON.parse((await savedFile(page)).buffer.toString());
     assert.deepEqual(session.files.map((/** @type {{ base64: string | null }} */ { base64 }) => base64), [null, null, null]);
     await panel.waitForWords(page, /Session saved, but without the bytes of 1\.png, 2\.png and 3\.png/);
+    await sheet.press('Escape');
   });
 
   await t.test('the originals are taken, and all is saved and comes back', async () => {
