@@ -9,7 +9,7 @@ interface CurveWords {
 /** English of the joint's curves. */
 export const curves = {
   convention: 'Convention of the translations',
-  conventions: { field: 'Field', 'grood-suntay': 'Grood–Suntay' },
+  conventions: { field: 'Tray axes', 'grood-suntay': 'Grood–Suntay' },
   conventionHints: {
     field: 'The origin of the femoral component in the axes of the tibial one; rotations are Grood and Suntay’s in either',
     'grood-suntay': 'The shift of the tibia from the femur along the axes of Grood and Suntay (1983)',
