@@ -30,19 +30,76 @@ fn is_grey(pixels: &Pixels) -> bool {
     greys > GREYS / 4 && between > pixels.len() / 4
 }
 
+/// So many values are labels at most, and so much of what is not 0 has each of two that are of two things: where edges are smoothed few pixels lie between.
+const LABELS: usize = 16;
+const OF_EACH: f64 = 0.1;
+
+/// Two values that are labels of two things, by how many pixels have them.
+fn labels(pixels: &Pixels) -> Option<[u16; 2]> {
+    let mut counts: Vec<(u16, usize)> = Vec::new();
+    let values = (0..pixels.len()).filter_map(|at| pixels.get(at));
+    for value in values.filter(|&value| value != 0) {
+        match counts.iter().position(|&(known, _)| known == value) {
+            Some(at) => counts[at].1 += 1,
+            None if counts.len() < LABELS => counts.push((value, 1)),
+            None => return None,
+        }
+    }
+    let inside: usize = counts.iter().map(|(_, count)| count).sum();
+    let least = OF_EACH * inside as f64;
+    counts.retain(|&(_, count)| count as f64 >= least);
+    counts.sort_unstable();
+    match counts[..] {
+        [(one, _), (other, _), ..] => Some([one, other]),
+        _ => None,
+    }
+}
+
 /// Reads a mask image.
 ///
 /// # Errors
-/// Names the file and what is wrong with it; a grey picture is none.
+/// Names the file and what is wrong with it; a grey picture is none, nor are labels of several things.
 pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
     let (bytes, name) = (read(path)?, path.display().to_string());
     let file = FrameFile::open(bytes.as_slice(), &name)?;
-    if file.count() == 1 && is_grey(&file.frame(0)?.pixels) {
-        bail!(
-            "{name}: this is a grey picture and no mask: a mask is 0 outside of the implant and another number inside; grey frames are named as frames"
-        );
+    if file.count() == 1 {
+        check_is_mask(&file.frame(0)?.pixels, &name)?;
     }
     let image = decode_mask(&bytes, &name)?;
     let (width, height) = (image.width as usize, image.height as usize);
     MaskBuffer::of_pixels(&image.pixels, width, height)
+}
+
+fn check_is_mask(pixels: &Pixels, name: &str) -> Result<()> {
+    if is_grey(pixels) {
+        bail!(
+            "{name}: this is a grey picture and no mask: a mask is 0 outside of the implant and another number inside; grey frames are named as frames"
+        );
+    }
+    if let Some([one, other]) = labels(pixels) {
+        bail!(
+            "{name}: it holds labels of several things ({one} and {other}), and a mask is of one component: write each label as a mask of its own, 0 elsewhere"
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_values_are_labels_where_neither_is_a_border() {
+        let found = |values: &[(u8, usize)]| {
+            let pixels = values.iter().flat_map(|&(value, count)| vec![value; count]);
+            labels(&Pixels::U8(pixels.collect()))
+        };
+        assert_eq!(found(&[(0, 500), (2, 90), (1, 60)]), Some([1, 2]));
+        assert_eq!(found(&[(0, 500), (255, 100)]), None);
+        // A border between, as resizing leaves it, and no component at all.
+        assert_eq!(found(&[(0, 500), (255, 95), (128, 5), (64, 5)]), None);
+        assert_eq!(found(&[(0, 500)]), None);
+        let ramp: Vec<(u8, usize)> = (0..200).map(|value| (value, 3)).collect();
+        assert_eq!(found(&ramp), None);
+    }
 }
