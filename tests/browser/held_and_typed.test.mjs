@@ -68,7 +68,10 @@ async function arrowsInASheet(page, stage) {
   const x = page.getByRole('region', { name: 'Pose numbers' }).getByRole('spinbutton', { name: 'x (mm)', exact: true });
   const before = await x.inputValue();
   await page.keyboard.press('?');
-  await page.getByRole('dialog', { name: 'Keys and mouse' }).waitFor();
+  const sheet = page.getByRole('dialog', { name: 'Keys and mouse' });
+  await sheet.waitFor();
+  // Keys go to the frame until the sheet has the focus.
+  await until(() => sheet.evaluate((it) => it.contains(document.activeElement)), (has) => has, 'the focus in the sheet');
   for (let k = 0; k < 3; k++) await page.keyboard.press('ArrowRight');
   await drawn(page);
   assert.equal(await x.inputValue(), before);
