@@ -4,7 +4,7 @@ use heapless::Vec;
 
 use super::choice::{CONTENDERS, RivalPose};
 use crate::locate::rerank::Reranked;
-use crate::math::sqrt;
+use crate::math::{norm, radians, sqrt, subtract};
 use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{Fit, Refined};
@@ -69,14 +69,21 @@ impl Candidate {
 /// Keeps a candidate in place of those that came to the same pose and fit worse, and not at all where one of these fits as well: two that are one are
 /// no reason to doubt either.
 pub(super) fn keep_once(candidates: &mut Vec<Candidate, CANDIDATES>, candidate: Candidate) {
-    let is_same =
-        |other: &Candidate| geodesic_deg(&candidate.pose.rotation, &other.pose.rotation) < SAME_DEG;
+    let is_same = |other: &Candidate| is_same(&candidate.pose, &other.pose);
     let mut same = candidates.iter().filter(|other| is_same(other));
     if same.any(|other| other.misfit() <= candidate.misfit()) {
         return;
     }
     candidates.retain(|other| !is_same(other));
     keep(candidates, candidate, Candidate::misfit);
+}
+
+/// Whether two poses are turned alike, and their places no farther apart than as much of their distance: an inner rim is met by a pose that is
+/// turned alike and lies farther, and that is another one.
+fn is_same(one: &Pose, other: &Pose) -> bool {
+    let shift = norm(&subtract(&one.translation, &other.translation));
+    geodesic_deg(&one.rotation, &other.rotation) < SAME_DEG
+        && shift < radians(SAME_DEG) * norm(&one.translation)
 }
 
 #[cfg(test)]
@@ -112,6 +119,10 @@ mod tests {
         let [one, twin, better, other] = [at(0.0, 0.2), at(0.3, 0.2), at(0.4, 0.1), at(9.0, 0.3)];
         assert_eq!(kept(&[one, other, twin]), [one, other]);
         assert_eq!(kept(&[one, other, better]), [better, other]);
+        // Turned alike, and 20 mm farther: what is open is shown.
+        let mut farther = twin;
+        farther.pose.translation[2] -= 20.0;
+        assert_eq!(kept(&[one, farther]), [one, farther]);
         // Two that are not each other's, and one between them.
         assert_eq!(kept(&[one, at(0.8, 0.2), better]), [better]);
     }
