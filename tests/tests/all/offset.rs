@@ -27,16 +27,22 @@ fn widened(mask: &Mask<'_>) -> MaskBuffer {
     wide
 }
 
-/// How far z is off, and its standard deviation, mm.
-fn depth(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 2] {
+/// A pose that was refined from the truth, and its standard deviations.
+fn refined(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> (EulerPose, Deviations) {
     let (view, mut buffers) = ([CameraView::only(camera, seen)], RefineBuffers::default());
     let mut memory = buffers.borrow(model, camera);
     let (truth, options) = (Pose::from(SEEN_FEMUR), RefineOptions::default());
     let refined = refine(model, &view, &truth, options, &mut memory).expect("refined");
     let told = assess(model, &view, &refined, &mut memory).expect("assessed");
     let covariance = told.covariance.expect("determined");
-    let Deviations { z_mm, .. } = covariance.deviations(&refined.pose, &model.bounds().centre);
-    [EulerPose::from(refined.pose).z_mm - SEEN_FEMUR.z_mm, z_mm]
+    let deviations = covariance.deviations(&refined.pose, &model.bounds().centre);
+    (EulerPose::from(refined.pose), deviations)
+}
+
+/// How far z is off, and its standard deviation, mm.
+fn depth(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 2] {
+    let (found, deviations) = refined(model, camera, seen);
+    [found.z_mm - SEEN_FEMUR.z_mm, deviations.z_mm]
 }
 
 #[test]
@@ -127,14 +133,8 @@ fn widened_towards(mask: &Mask<'_>, right: isize, down: isize, pixels: isize) ->
 
 /// How far each number of the pose is off, in its own standard deviations.
 fn off_in_deviations(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 6] {
-    let (view, mut buffers) = ([CameraView::only(camera, seen)], RefineBuffers::default());
-    let mut memory = buffers.borrow(model, camera);
-    let (truth, options) = (Pose::from(SEEN_FEMUR), RefineOptions::default());
-    let refined = refine(model, &view, &truth, options, &mut memory).expect("refined");
-    let told = assess(model, &view, &refined, &mut memory).expect("assessed");
-    let covariance = told.covariance.expect("determined");
-    let one = covariance.deviations(&refined.pose, &model.bounds().centre);
-    let (found, truth) = (EulerPose::from(refined.pose), SEEN_FEMUR);
+    let (found, one) = refined(model, camera, seen);
+    let truth = SEEN_FEMUR;
     [
         (found.x_mm - truth.x_mm) / one.x_mm,
         (found.y_mm - truth.y_mm) / one.y_mm,

@@ -64,7 +64,31 @@ fn samples() -> Vec<BorderPixel> {
     (0..150).map(sample).collect()
 }
 
-/// Oracle: the normal equations of a pose that follows edges moved by so much, sample by sample in 64 bits, solved.
+/// The normal equations of a pose that follows edges moved by so much, sample by sample in 64 bits, are solved by `shift`.
+fn assert_follows(
+    border: &[BorderPixel],
+    motion: &Motion,
+    shift: &[f64; 6],
+    moved: impl Fn(usize, &BorderPixel) -> f64,
+) {
+    let (mut left, mut size) = ([0.0f64; 6], [0.0f64; 6]);
+    let samples = border.iter().enumerate();
+    for (number, sample) in samples.filter(|(_, sample)| sample.has_residual()) {
+        let moved = moved(number, sample);
+        let jacobian = motion.jacobian(sample).map(f64::from);
+        let along: f64 = jacobian.iter().zip(shift).map(|(a, b)| a * b).sum();
+        for k in 0..6 {
+            let by = f64::from(sample.weight) * jacobian[k];
+            left[k] += by * (moved - along);
+            size[k] += (by * moved).abs();
+        }
+    }
+    for k in 0..6 {
+        assert!(left[k].abs() < 1e-3 * size[k], "{k}: {left:?} of {size:?}");
+    }
+}
+
+/// Oracle of [`assert_follows`].
 #[test]
 fn shifts_are_those_of_a_pose_that_follows_moved_edges() {
     let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
@@ -79,33 +103,13 @@ fn shifts_are_those_of_a_pose_that_follows_moved_edges() {
     bias.add_moved((&border, &motion), 0.25, |number, _| moves(number));
     let shifts = bias.shifts().expect("determined");
     for (which, shift) in shifts.iter().enumerate() {
-        let (mut left, mut size) = ([0.0f64; 6], [0.0f64; 6]);
-        for (number, sample) in border.iter().enumerate() {
-            if !sample.has_residual() {
-                continue;
-            }
-            let moved = moves(number).get(which).copied().unwrap_or(0.25);
-            let jacobian = motion.jacobian(sample).map(f64::from);
-            let along: f64 = jacobian.iter().zip(shift).map(|(a, b)| a * b).sum();
-            for k in 0..6 {
-                let by = f64::from(sample.weight) * jacobian[k];
-                left[k] += by * (moved - along);
-                size[k] += (by * moved).abs();
-            }
-        }
-        for k in 0..6 {
-            assert!(
-                left[k].abs() < 1e-3 * size[k],
-                "{which} {k}: {} of {}",
-                left[k],
-                size[k]
-            );
-        }
+        assert_follows(&border, &motion, shift, |number, _| {
+            moves(number).get(which).copied().unwrap_or(0.25)
+        });
     }
 }
 
-/// Oracle: a mask that is shifted as a whole belongs to a part that is shifted as much, and each way to be uneven leaves what the normal equations,
-/// sample by sample in 64 bits, leave of it.
+/// Oracle: a mask that is shifted as a whole belongs to a part that is shifted as much, and a pose follows each way to be uneven ([`assert_follows`]).
 #[test]
 fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
     let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
@@ -128,31 +132,16 @@ fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
     let inverse = bias.inverse().expect("determined");
     let shifts = bias.uneven.map(|pull| times(&inverse, &pull));
     for (which, shift) in shifts.iter().enumerate() {
-        let (mut left, mut size) = ([0.0f64; 6], [0.0f64; 6]);
-        for sample in border.iter().filter(|sample| sample.has_residual()) {
+        assert_follows(&border, &motion, shift, |_, sample| {
             let [right, down] = sample.normal().map(f64::from);
             let angle = libm::atan2(down, right);
-            let moved = 0.5
-                * match which {
-                    0 => libm::cos(angle),
-                    1 => libm::sin(angle),
-                    2 => libm::cos(2.0 * angle),
-                    _ => libm::sin(2.0 * angle),
-                };
-            let jacobian = motion.jacobian(sample).map(f64::from);
-            let along: f64 = jacobian.iter().zip(shift).map(|(a, b)| a * b).sum();
-            for k in 0..6 {
-                let by = f64::from(sample.weight) * jacobian[k];
-                left[k] += by * (moved - along);
-                size[k] += (by * moved).abs();
+            0.5 * match which {
+                0 => libm::cos(angle),
+                1 => libm::sin(angle),
+                2 => libm::cos(2.0 * angle),
+                _ => libm::sin(2.0 * angle),
             }
-        }
-        for k in 0..6 {
-            assert!(
-                left[k].abs() < 1e-3 * size[k],
-                "{which} {k}: {left:?} of {size:?}"
-            );
-        }
+        });
     }
     // Half a pixel at 575 to 600 mm, of 900 pixels of focal length.
     let [right, down, ..] = shifts;

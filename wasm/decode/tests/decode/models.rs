@@ -109,6 +109,7 @@ fn a_model_in_another_form_is_to_be_exported_as_a_mesh() {
     for (bytes, name) in [
         (&b"ISO-10303-21;"[..], "knee.txt"),
         (b"PK\x03\x04", "knee.3mf"),
+        (b"glTF\x02\0\0\0", "knee"),
     ] {
         let error = decode_model(bytes, name).unwrap_err();
         assert_eq!(error.problem, Problem::OtherModel);
