@@ -119,7 +119,7 @@ impl<'a> ImplantCheck<'a> {
 }
 
 /// How far the square of a normal's length may be from that of a unit.
-const UNIT: f64 = 1e-6;
+const UNIT: f64 = 1e-9;
 /// Lengths and coordinates that an implant may have, mm: those of its vertices.
 const LONGEST_MM: f64 = 1e4;
 

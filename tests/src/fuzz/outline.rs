@@ -55,7 +55,7 @@ pub(super) fn look(component: &Component<'_>, outline: &Outline<'_>) {
         return;
     };
     for candidate in &found.candidates {
-        assert!(candidate.pose.is_rigid(1e-5), "no rotation");
+        assert!(candidate.pose.is_rigid(1e-6), "no rotation");
         let numbers = candidate.pose.translation;
         assert!(
             numbers.iter().all(|number| number.is_finite()),
