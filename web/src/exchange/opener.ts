@@ -240,7 +240,9 @@ async function openOne(services: Services, work: WorkOnView, file: Recognised, r
   switch (file.kind) {
     case 'calibration':
       return openCalibration(services, work, file);
+    // What is in another form the reader refuses, and says what to do.
     case 'model':
+    case 'other-model':
       return openModel(services, work, file);
     case 'library':
       return openLibrary(services, work, file);
@@ -248,8 +250,6 @@ async function openOne(services: Services, work: WorkOnView, file: Recognised, r
       return openSessionAs(services, work, file, remarks);
     case 'distortion':
       return openDistortion(services, work, file);
-    case 'other-model':
-      throw new Error(later.opening.otherModel);
     default:
       if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
       throw new Error(ARCHIVE.test(file.name) ? later.opening.archive : texts.said.notRecognised);

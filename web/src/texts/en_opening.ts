@@ -1,6 +1,5 @@
 /** What is said when files come, by what comes with them. */
 export const opening = {
-  otherModel: 'this is a model in a form that is not read; export the part from the program that made it as a surface mesh, in mm: STL, OBJ or PLY',
   archive: 'this is an archive, which the page does not look into: unpack it, and open the folder',
   steppedAside: (name: string) => `It is a study of its own: ${name || 'what was open'} is under Save, Earlier work.`,
   backTo: (name: string) => `Back to ${name || 'what was open'}`,

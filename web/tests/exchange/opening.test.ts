@@ -20,7 +20,7 @@ describe('a model in another form', () => {
   it('is to be exported, but where what was exported lies beside it', async () => {
     const { said, open } = pageOfFiles();
     await open(at('/f1.png'), at('/femur.step'));
-    expect(said()).toMatch(/femur\.step: this is a model in a form that is not read; export the part/);
+    expect(said()).toMatch(/^Opened the frame f1\.png\. femur\.step: this is a model in a form that is not read\. Export it\.$/);
     const another = pageOfFiles();
     await another.open(at('/f1.png'), at('/femur.stl'), at('/femur.step'));
     expect(another.said()).toMatch(/left out: femur\.step\.$/);

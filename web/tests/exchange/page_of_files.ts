@@ -22,6 +22,7 @@ export function pageOfFiles(studio: object = {}) {
   let print = 0;
   const call = async (method: string, input: { readonly name: string }, options: Progress) => {
     if (method === 'sniff') return KINDS[input.name.split('.').at(-1) ?? ''] ?? 'unknown';
+    if (method === 'model' && input.name.endsWith('.step')) throw new Error(`${input.name}: this is a model in a form that is not read. Export it.`);
     if (method === 'model') return { vertices: new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0]), triangles: new Uint32Array([0, 1, 2]) };
     if (method !== 'frames') return null;
     await gates.get(input.name);
