@@ -394,3 +394,39 @@ pub(super) fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
     let points = simplified(&border, TOLERANCE, [width, height])?;
     Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chosen_pose_that_came_to_another_is_that_one_and_no_third() {
+        let turned = |x_rot_deg| {
+            Pose::from(EulerPose {
+                x_rot_deg,
+                z_mm: -900.0,
+                ..EulerPose::default()
+            })
+        };
+        let corrected = |from: f64, to: f64| OnFrame {
+            refined: Refined::at(turned(to)),
+            start: turned(from),
+            support: 1.0,
+        };
+        let chosen = turned(0.0);
+        let places = |mut found: Vec<OnFrame>| {
+            stand_for(&chosen, &mut found);
+            found.iter().position(|one| one.start == chosen)
+        };
+        assert_eq!(
+            places(vec![corrected(30.0, 29.0), corrected(2.0, 1.0)]),
+            Some(1)
+        );
+        assert_eq!(
+            places(vec![corrected(2.0, 1.0), corrected(0.0, 1.5)]),
+            Some(1)
+        );
+        // It could not be corrected, and nothing is where it was.
+        assert_eq!(places(vec![corrected(30.0, 29.0)]), None);
+    }
+}
