@@ -1,7 +1,7 @@
 /** Outlines and masks of other programs: recognised, shown before they are taken in, and written again. */
 import assert from 'node:assert/strict';
 import { isDeepStrictEqual } from 'node:util';
-import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
+import { atRest, pageTest, screenshot, step, until, visit } from './support/browser.mjs';
 import { exported } from './support/exporting.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import { differing, drawnMask, dropFolder, dropMasks, importAll, maskFile, maskOf, proposed, unzipped } from './support/masks.mjs';
@@ -39,6 +39,8 @@ pageTest('masks give poses', async (page, t) => {
   await step(page, t, 'the poses are those of the masks, and one undo takes all of it back', async () => {
     for (const frame of [1, 2]) {
       await page.getByRole('button', { name: `Frame ${frame}, femur` }).click();
+      // The panel may show the frame before for a moment.
+      await atRest(page);
       panel.assertNear(await panel.waitForPose(page), await truePose('femur', frame), FROM_MASK);
     }
     await page.keyboard.press('Control+z');
