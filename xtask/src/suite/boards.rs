@@ -184,7 +184,7 @@ fn linked(gcc: &Path, library: &Path) -> Result<PathBuf> {
         compiler.arg(format!("-D{name}=\"{}\"", file.display()));
     }
     compiler.arg("-I").arg(crate_folder.join("include"));
-    compiler.args(["main.c", "writing.c", "start.c"].map(|file| example.join(file)));
+    compiler.args(["main.c", "writing.c", "board.c", "start.c"].map(|file| example.join(file)));
     compiler.arg(library).arg("-lgcc");
     compiler.arg("-T").arg(example.join("board.ld"));
     command::run(compiler.arg("-o").arg(&image))?;

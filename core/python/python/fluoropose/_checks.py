@@ -68,6 +68,13 @@ def choice(value: object, words: Sequence[str], name: str) -> None:
         raise ValueError(f"{name} must be one of {', '.join(words)}, not {value!r}")
 
 
+def bright(metal: str | None) -> bool | None:
+    """Whether metal is bright, where that is said."""
+    if metal is not None:
+        choice(metal, ("dark", "bright"), "metal")
+    return None if metal is None else metal == "bright"
+
+
 def pixels(value: ArrayLike, one: bool, name: str) -> NDArray[Any]:
     """An array of pixels; a path in its place is told how to become one."""
     if is_path(value):

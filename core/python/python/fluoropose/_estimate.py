@@ -16,6 +16,7 @@ from ._camera import Camera
 from ._model import Model
 from ._native import VERSION
 from ._poses import Pose, Poses, rows
+from ._track import Click, Part, follow
 
 METHODS = ("library", "refined", "image")
 
@@ -197,7 +198,7 @@ def estimate_all(
         library=None if library is None else _checks.path(library, "library"),
         nominal=_nominal(nominal),
         distance_mm=_checks.positive(distance_mm, "distance_mm"),
-        bright=bright(metal),
+        bright=_checks.bright(metal),
         edge_offset=bool(edge_offset),
         other=other,
         doubt=None if role is None else model._handle.doubt(role),
@@ -214,13 +215,6 @@ def estimate_all(
         "camera": camera.text,
     }
     return tuple(_answer(answer, remarks, settings) for answer in answers)
-
-
-def bright(metal: str | None) -> bool | None:
-    """Whether metal is bright, where that is said."""
-    if metal is not None:
-        _checks.choice(metal, ("dark", "bright"), "metal")
-    return None if metal is None else metal == "bright"
 
 
 def _nominal(value: tuple[float, float] | None) -> tuple[float, float] | None:
@@ -289,8 +283,6 @@ def _on_frame(
     role: str | None,
 ) -> Estimate:
     """A film of one frame."""
-    from ._track import Click, Part, follow
-
     _checks.instance(model, Model, "model")
     _checks.instance(camera, Camera, "camera")
     if role is not None:

@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _checks, _native
 from ._alike import Alike
 from ._camera import Camera
-from ._estimate import bright
 from ._frames import size_in
 from ._kinematics import Kinematics, kinematics
 from ._model import Model
@@ -247,7 +246,7 @@ def follow(
             for called, click in (clicks or {}).items()
         ],
         fixed=[(name, poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()],
-        bright=bright(metal),
+        bright=_checks.bright(metal),
         interpolate=interpolate,
         anew=anew,
         remark=hear,
