@@ -21,13 +21,17 @@
 //!
 //! A counterpart that is doubtful itself rules out nothing: poses that it speaks against stay open, behind the others.
 //!
+//! Residual and tilt choose whatever the film says: a pose that its film does not go through is doubtful ([`detours`]).
+//!
 //! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]).
 //!
 //! Rules 2 and 3 need models with the field's axes: x anteroposterior, y superoinferior (the tibial
 //! component's along its stem, upwards), z mediolateral.
 
+mod detour;
 mod film;
 
+pub use detour::{Detour, detours};
 pub use film::{FILM_MARGIN_DEG, FilmError, FilmFrame, FilmStep, choose_film, rests_on_doubt};
 
 use core::fmt;

@@ -10,7 +10,7 @@ use core::fmt;
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
-use super::choice::{Choice, DECISIVE_RATIO, KNEE_DEG, OpenRival, RivalPose};
+use super::choice::{Choice, DECISIVE_RATIO, Detour, KNEE_DEG, OpenRival, RivalPose};
 use crate::joint::beside::Beside;
 use crate::math::{Decimal, norm, subtract};
 use crate::pose::{Pose, geodesic_deg};
@@ -118,6 +118,8 @@ pub enum Doubt {
     },
     /// The film decided, by frames that are doubtful themselves.
     BesideDoubt,
+    /// The film does not go through it: residual or tilt chose it all the same.
+    OffTheWay(Detour),
     /// The other component is turned or tilted as in no knee.
     NoKnee {
         /// How far the mediolateral axes of both are apart, degrees.
@@ -262,6 +264,12 @@ impl fmt::Display for Doubt {
             ),
             Self::BesideDoubt => f.write_str(
                 "continuity with the frames beside it decided, and those are doubtful themselves",
+            ),
+            Self::OffTheWay(Detour { deg, usual_deg }) => write!(
+                f,
+                "by way of it the film turns {}\u{b0} farther than past it from the good frame before to the good one after, where {}\u{b0} is usual: is it another pose?",
+                Decimal::new(deg, 0),
+                Decimal::new(usual_deg, 0)
             ),
             Self::NoKnee { apart_deg } => write!(
                 f,

@@ -9,7 +9,7 @@ use core::fmt;
 
 use crate::joint::kinematics::Side;
 use crate::joint::plate::Plate;
-use crate::math::{Decimal, Vector3, apply, deviation, dot, sqrt};
+use crate::math::{Decimal, Vector3, apply, deviation, dot, median, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::pose::covariance::PoseCovariance;
@@ -190,21 +190,6 @@ impl Middles {
             flipped: None,
         })
     }
-}
-
-/// The median of what is known of at least two frames.
-fn median(apart: &[f64], sorted: &mut [f64]) -> Option<f64> {
-    let mut count = 0;
-    let known = apart.iter().filter(|mm| mm.is_finite());
-    for (place, &mm) in sorted.iter_mut().zip(known) {
-        *place = mm;
-        count += 1;
-    }
-    let sorted = sorted.get_mut(..count)?;
-    sorted.sort_unstable_by(f64::total_cmp);
-    let is_film = count > 1;
-    let [below, above] = [(count.max(1) - 1) / 2, count / 2].map(|at| sorted.get(at).copied());
-    is_film.then(|| Some((below? + above?) / 2.0)).flatten()
 }
 
 impl fmt::Display for Beside {

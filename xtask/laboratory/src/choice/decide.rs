@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::Result;
 use fluoropose::finder::choice::{
-    Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film,
+    Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film, detours,
     rests_on_doubt,
 };
 use fluoropose::finder::{Candidate, Doubt, Limits, Verdict, contenders, judge};
@@ -132,8 +132,24 @@ pub fn decide(
     let mut decided: Vec<Option<Decision>> = decided
         .map(|(choice, frame)| Decision::of(choice?, &frame.candidates))
         .collect();
+    doubt_off_the_way(&mut decided);
     doubt_between_doubts(&mut decided);
     Ok(decided)
+}
+
+/// Makes frames doubtful that the film does not go through.
+fn doubt_off_the_way(film: &mut [Option<Decision>]) {
+    let is_good = |one: &&Decision| matches!(one.verdict, Verdict::Good);
+    let pose = |one: &Option<Decision>| one.as_ref().filter(is_good).map(|one| one.chosen.pose);
+    let good: Vec<Option<Pose>> = film.iter().map(pose).collect();
+    let mut told = vec![None; film.len()];
+    let [turns, sorted] = &mut [vec![0.0; film.len()], vec![0.0; film.len()]];
+    detours(&good, turns, sorted, &mut told);
+    for (one, detour) in film.iter_mut().zip(told) {
+        if let Some(one) = one {
+            one.verdict = one.verdict.or_doubt(detour.map(Doubt::OffTheWay));
+        }
+    }
 }
 
 /// Makes frames doubtful that the film decided, by frames that are doubtful.
@@ -168,6 +184,7 @@ impl Decision {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fluoropose::pose::EulerPose;
     use fluoropose::refine::Fit;
 
     #[test]
@@ -202,5 +219,54 @@ mod tests {
         assert_eq!(told(978.0), "565 unmatched pixels against 978");
         let alone = "565 unmatched pixels, those of the other pose not counted";
         assert_eq!(told(f64::INFINITY), alone);
+    }
+
+    /// The only pose of a frame, turned by so much, which fits.
+    fn fits(y_rot_deg: f64) -> FrameFound {
+        let euler = EulerPose {
+            y_rot_deg,
+            z_mm: -1000.0,
+            ..EulerPose::default()
+        };
+        let pose = Pose::from(euler);
+        let fit = Fit {
+            known: 1.0,
+            met: 1.0,
+            residual_px: 0.5,
+            misfit_px: 0.5,
+            size_px: 200.0,
+            ..Fit::default()
+        };
+        let candidate = Candidate {
+            pose,
+            start: pose,
+            located: None,
+            refined: None,
+            covariance: None,
+            fit,
+        };
+        FrameFound {
+            file: "mask.png".into(),
+            candidates: vec![candidate],
+            failure: None,
+        }
+    }
+
+    /// It fits, and nothing else was found: residual and knee have no word against it.
+    #[test]
+    fn a_pose_that_the_film_does_not_go_through_is_doubtful_and_those_beside_it_are_not() {
+        let film: Vec<FrameFound> = [0.0, 2.0, 4.0, 66.0, 8.0, 10.0, 12.0].map(fits).into();
+        let decided = decide(&film, &[], &Pose::IDENTITY).expect("decided");
+        let verdicts: Vec<Verdict> = decided.iter().flatten().map(|one| one.verdict).collect();
+        for (frame, verdict) in verdicts.iter().enumerate() {
+            let is_off = matches!(verdict, Verdict::Doubtful(Doubt::OffTheWay(_)));
+            assert_eq!(is_off, frame == 3, "{frame}: {verdict}");
+            assert!(is_off || *verdict == Verdict::Good, "{frame}: {verdict}");
+        }
+        let told = verdicts[3].to_string();
+        assert!(
+            told.starts_with("by way of it the film turns 116\u{b0} farther"),
+            "{told}"
+        );
     }
 }
