@@ -107,7 +107,8 @@ mod tests {
 
     /// A part that turns by three degrees from frame to frame, with a tremor.
     fn film(count: usize) -> Vec<Option<Pose>> {
-        let at = |frame: usize| 3.0 * frame as f64 + if frame % 2 == 0 { 0.5 } else { 0.0 };
+        let at =
+            |frame: usize| 3.0 * frame as f64 + if frame.is_multiple_of(2) { 0.5 } else { 0.0 };
         (0..count).map(|frame| Some(turned(at(frame)))).collect()
     }
 
