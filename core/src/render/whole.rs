@@ -46,6 +46,51 @@ pub(super) struct WholeImages {
     doubt: u32,
 }
 
+/// In how many units a mm is counted.
+struct Units {
+    /// Of a vertex, as a power of two.
+    places: i32,
+    /// Along the view.
+    away: f64,
+    /// By how much finer aside, as a power of two.
+    finer: i32,
+}
+
+impl Units {
+    /// For a model none of whose numbers is larger than `largest`, that lies no farther away than `far` and no farther aside than `tangent` of its
+    /// distance. `None` where no units are fine enough.
+    fn of(largest: f64, far: f64, tangent: f64) -> Option<Self> {
+        let places = (BITS - 1 - exponent(largest)).min(VERTEX);
+        let away = ROOM * power(32) / far;
+        let turn = away * power(32 - places);
+        // Ratios of places aside to distances stay below a half; rotations have 31 bits and a sign.
+        let finer = (-2 - exponent(tangent)).min(BITS - 1 - exponent(turn));
+        (finer >= 0).then_some(Self {
+            places,
+            away,
+            finer,
+        })
+    }
+
+    fn aside(&self) -> f64 {
+        self.away * power(self.finer)
+    }
+
+    /// What a place errs by that is counted so, of its distance: three numbers of a vertex cut off, rotations rounded, a sum cut off and a
+    /// translation rounded.
+    fn places_off(&self, largest: f64, tangent: f64, near: f64) -> f64 {
+        let off = |of_a_mm: f64| {
+            1.75 / power(self.places) + (1.5 * largest * power(self.places - 32) + 1.0) / of_a_mm
+        };
+        (off(self.aside()) + tangent * off(self.away)) / near
+    }
+
+    /// The same of quotients, in parts of 2 to the 31st.
+    fn quotients_off(&self, tangent: f64, least_focal: f64) -> f64 {
+        tangent * (RECIPROCAL_PARTS + power(30) / least_focal) + 0.5 / power(self.finer)
+    }
+}
+
 impl WholeImages {
     /// `None` where numbers are too large, or so few images certain that it is not worth it.
     pub(super) fn new(
@@ -69,35 +114,21 @@ impl WholeImages {
         if !is_possible {
             return None;
         }
-        // Of a mm of a vertex, of distance, of a place aside.
-        let places = (BITS - 1 - exponent(largest)).min(VERTEX);
-        let away = ROOM * power(32) / far;
-        let turn = away * power(32 - places);
-        // Ratios of places aside to distances stay below a half; rotations have 31 bits and a sign.
-        let finer = (-2 - exponent(tangent)).min(BITS - 1 - exponent(turn));
-        if finer < 0 {
-            return None;
-        }
-        let aside = away * power(finer);
+        let units = Units::of(largest, far, tangent)?;
+        let (aside, away) = (units.aside(), units.away);
         let focal = camera
             .focal()
-            .map(|focal| focal * ONE as f64 * power(REST as i32 - 31 - finer));
+            .map(|focal| focal * ONE as f64 * power(REST as i32 - 31 - units.finer));
         let longest_px = camera.focal()[0].max(camera.focal()[1]);
         let principal = camera.principal_point();
         let farthest = principal[0].abs().max(principal[1].abs()) + longest_px * tangent;
         if focal[0].max(focal[1]) >= power(31) || farthest >= BEYOND_PX {
             return None;
         }
-        // What a place errs by that is counted so, mm: three numbers of a vertex cut off, rotations rounded, a sum cut off and a
-        // translation rounded.
-        let off = |of_a_mm: f64| {
-            1.75 / power(places) + (1.5 * largest * power(places - 32) + 1.0) / of_a_mm
-        };
-        let places_off = (off(aside) + tangent * off(away)) / near;
-        let quotients_off =
-            tangent * (RECIPROCAL_PARTS + power(30) / focal[0].min(focal[1])) + 0.5 / power(finer);
-        let units = longest_px * ONE as f64;
-        let doubt = units * (places_off + quotients_off / power(31)) + SPARE;
+        let least_focal = focal[0].min(focal[1]);
+        let off = units.places_off(largest, tangent, near)
+            + units.quotients_off(tangent, least_focal) / power(31);
+        let doubt = longest_px * ONE as f64 * off + SPARE;
         if doubt > 0.125 {
             return None;
         }
@@ -106,9 +137,9 @@ impl WholeImages {
         let principal = principal.map(|x| x * ONE as f64 * power(REST as i32) + half);
         let counted = [aside, aside, away];
         Some(Self {
-            scale: power(places) as f32,
+            scale: power(units.places) as f32,
             rotation: core::array::from_fn(|k| {
-                let of_a_turn = counted[k] * power(32 - places);
+                let of_a_turn = counted[k] * power(32 - units.places);
                 pose.rotation[k].map(|x| nearest(x * of_a_turn))
             }),
             // With half of what is cut off of a product.
