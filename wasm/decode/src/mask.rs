@@ -77,6 +77,36 @@ fn grades<T: Copy + Into<u16>>(pixels: &[T]) -> (u16, usize) {
     (most, seen.iter().filter(|&&seen| seen).count())
 }
 
+/// Nearer to 0 or to the largest value than this part of it a grade is as good as decided.
+const DECIDED: f64 = 0.05;
+/// At most this part of a graded mask's pixels is not: those along its border. Of a picture most are.
+const MOST_UNDECIDED: f64 = 0.08;
+/// At least this part is inside, and at least as much outside.
+const LEAST_DECIDED: f64 = 0.001;
+
+/// A picture read as the mask of graded values that it seems to be: nearly all of them lie near 0 or near the largest. `None` where it seems to be a
+/// picture of something, or a mask of few values, which needs no such reading.
+pub fn graded_mask(frame: &GreyFrame) -> Option<MaskImage> {
+    let rule = rule_of(frame);
+    let MaskRule::AtLeast(least) = rule else {
+        return None;
+    };
+    let most = 2.0 * f64::from(least);
+    let [low, high] = [DECIDED * most, (1.0 - DECIDED) * most];
+    let part = |is: &dyn Fn(f64) -> bool| match &frame.pixels {
+        Pixels::U8(p) => part_of(p, is),
+        Pixels::U16(p) => part_of(p, is),
+    };
+    let (outside, inside) = (part(&|v| v < low), part(&|v| v > high));
+    let is_mask = outside.min(inside) >= LEAST_DECIDED && outside + inside >= 1.0 - MOST_UNDECIDED;
+    is_mask.then(|| mask_of(frame, rule))
+}
+
+fn part_of<T: Copy + Into<f64>>(pixels: &[T], is: &dyn Fn(f64) -> bool) -> f64 {
+    let count = pixels.iter().filter(|&&value| is(value.into())).count();
+    count as f64 / pixels.len().max(1) as f64
+}
+
 fn only_frame(bytes: &[u8], name: &str) -> Result<GreyFrame, DecodeError> {
     let file = FrameFile::open(bytes, name)?;
     match file.count() {

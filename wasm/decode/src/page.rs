@@ -202,6 +202,17 @@ impl PageFrame {
         self.0.geometry.pixel_aspect
     }
 
+    /// The mask of graded values that it seems to be, 1 inside; nothing where it seems to be a picture, or a mask of few values.
+    #[wasm_bindgen(js_name = gradedMask)]
+    pub fn graded_mask(&self) -> Option<PageFrame> {
+        let mask = crate::graded_mask(&self.0)?;
+        Some(PageFrame(GreyFrame {
+            pixels: Pixels::U8(mask.pixels),
+            bits: 1,
+            ..self.0.clone()
+        }))
+    }
+
     /// What was done to the pixels, a sentence each.
     #[wasm_bindgen(getter)]
     pub fn notes(&self) -> Vec<String> {

@@ -13,7 +13,7 @@ import { lookedAt } from './reading';
 import type { Store } from '../document/store';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
-import type { MaskLabel, MaskPage } from '../workers/protocol/masks';
+import type { MaskLabel, MaskLook, MaskPage } from '../workers/protocol/masks';
 
 /** Files of outlines, as they were recognised. */
 export interface OutlineFile extends Incoming {
@@ -175,24 +175,29 @@ export async function masksAmong<F extends Incoming & { readonly head: Uint8Arra
   try {
     // What cannot be decoded is a frame's trouble, and told there.
     const look = async ({ blob, name }: Incoming) => worker.call('look', { bytes: await bytesOf(blob), name }).catch(() => null);
-    const labels = await lookedAt(store, candidates, look);
-    return masksBy(files, new Map(candidates.map((file, index) => [file, labels[index] ?? null])));
+    const looks = await lookedAt(store, candidates, look);
+    return masksBy(files, new Map(candidates.map((file, index) => [file, looks[index] ?? null])));
   } finally {
     worker.dispose();
   }
 }
 
 /**
- * By how many labels files have, null those that are no masks. One without any is a mask among masks, and a blank frame of the film
- * in a folder that holds frames and no masks besides.
+ * By what was seen in files. One without any label is a mask among masks, and a blank frame of the film in a folder that holds frames and no masks
+ * besides; graded ones are masks in a folder without frames.
  */
-export function masksBy<F extends Incoming>(files: readonly F[], labels: ReadonlyMap<F, number | null>): ReadonlySet<F> {
+export function masksBy<F extends Incoming>(files: readonly F[], looks: ReadonlyMap<F, MaskLook>): ReadonlySet<F> {
   const folderOf = ({ name, path }: Incoming) => (path ?? name).slice(0, -name.length);
-  const foldersOf = (is: (file: F) => boolean) => new Set(files.filter(is).map(folderOf));
-  const ofMasks = foldersOf((file) => (labels.get(file) ?? 0) > 0);
-  const ofFrames = foldersOf((file) => (labels.get(file) ?? null) === null);
-  const isBlankFrame = (file: F) => labels.get(file) === 0 && ofFrames.has(folderOf(file)) && !ofMasks.has(folderOf(file));
-  return new Set(files.filter((file) => (labels.get(file) ?? null) !== null && !isBlankFrame(file)));
+  const lookOf = (file: F) => looks.get(file) ?? null;
+  const foldersOf = (is: (look: MaskLook) => boolean) => new Set(files.filter((file) => is(lookOf(file))).map(folderOf));
+  const ofFrames = foldersOf((look) => look === null);
+  const ofMasks = foldersOf((look) => typeof look === 'number' && look > 0);
+  const isMask = (file: F) => {
+    const [look, folder] = [lookOf(file), folderOf(file)];
+    if (look === 'graded') return !ofFrames.has(folder);
+    return look === 0 ? !ofFrames.has(folder) || ofMasks.has(folder) : look !== null;
+  };
+  return new Set(files.filter(isMask));
 }
 
 /** So many bytes of a PNG tell its size. */

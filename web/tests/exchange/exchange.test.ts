@@ -9,6 +9,7 @@ import { Store } from '../../src/document/store';
 import { cellKey, cellOf, type Doc, type Outline } from '../../src/document/types';
 import { masksOf } from '../../src/exchange/exporter';
 import { masksBy, mayBeMask } from '../../src/exchange/importer';
+import type { MaskLook } from '../../src/workers/protocol/masks';
 import { framePoint } from '../../src/geometry/points';
 
 const triangle: Outline = { points: [framePoint(10.25, 10), framePoint(50, 1 / 3), framePoint(30, 60)], closed: true, unknownSides: [1] };
@@ -188,7 +189,7 @@ describe('a proposal', () => {
 
 describe('masks', () => {
   /** The names of what is taken for masks, of files with so many labels. */
-  const masksAmong = (labels: Readonly<Record<string, number | null>>) => {
+  const masksAmong = (labels: Readonly<Record<string, MaskLook>>) => {
     const files = Object.keys(labels).map((path) => ({ name: path.split('/').at(-1)!, path, blob: new Blob() }));
     return [...masksBy(files, new Map(files.map((file) => [file, labels[file.path]!])))].map(({ path }) => path);
   };
@@ -199,6 +200,11 @@ describe('masks', () => {
     expect(masksAmong({ 'f/1.png': null, 'f/2.png': 0, 'm/1.png': 1, 'm/2.png': 0 })).toEqual(['m/1.png', 'm/2.png']);
     expect(masksAmong({ '1.png': null, '2.png': 0, '1_mask.png': 1 })).toEqual(['2.png', '1_mask.png']);
     expect(masksAmong({ 'f/1.png': null, 'empty/1.png': 0 })).toEqual(['empty/1.png']);
+  });
+
+  it('are probabilities too, in a folder without frames: a frame of the film may be as black and white', () => {
+    expect(masksAmong({ 'f/1.png': null, 'm/1.png': 'graded', 'm/2.png': 'graded', 'm/3.png': 0 })).toEqual(['m/1.png', 'm/2.png', 'm/3.png']);
+    expect(masksAmong({ 'f/1.png': null, 'f/2.png': 'graded' })).toEqual([]);
   });
 
   it('have the names of their frames, each once', () => {

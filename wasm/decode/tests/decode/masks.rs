@@ -1,4 +1,6 @@
-use fluoropose_decode::{MaskRule, Problem, decode_mask, decode_mask_by, encode_mask};
+use fluoropose_decode::{
+    FrameFile, MaskRule, Problem, decode_mask, decode_mask_by, encode_mask, graded_mask,
+};
 use png::{BitDepth, ColorType};
 use tiff::encoder::{Compression, colortype::Gray8};
 
@@ -62,6 +64,50 @@ fn half_the_largest_of_graded_values_is_inside() {
     let labels: Vec<u8> = (0..32).map(|at| at % 7).collect();
     let labelled: Vec<u8> = labels.iter().map(|&label| label.min(1)).collect();
     assert_eq!(mask(&labels), labelled);
+}
+
+/// Of a picture of 100 x 100 with the values that are given for each distance from its middle: how many pixels its mask has.
+fn area_of_graded(value: impl Fn(f64, usize) -> f64) -> Option<usize> {
+    let at = |k: usize| {
+        let off = |x: usize| x as f64 - 49.5;
+        value(off(k % 100).hypot(off(k / 100)), k) as u8
+    };
+    let pixels: Vec<u8> = (0..10_000).map(at).collect();
+    let file = png(100, 100, ColorType::Grayscale, BitDepth::Eight, &pixels);
+    let frame = FrameFile::open(&file, "m.png").unwrap().frame(0).unwrap();
+    let mask = graded_mask(&frame)?;
+    assert_eq!(mask, decode_mask(&file, "m.png").unwrap());
+    Some(mask.area())
+}
+
+#[test]
+fn a_picture_is_a_graded_mask_where_nearly_all_of_it_is_decided() {
+    // A disc of 30 pixels whose border is so many wide; a network's noise besides.
+    let disc = |wide: f64, most: f64, noise: usize| {
+        let edge = move |r: f64| ((30.0 - r) / wide + 0.5).clamp(0.0, 1.0);
+        move |r: f64, k: usize| {
+            let noise = (k * 7 % (noise + 1)) as f64;
+            (most - noise).mul_add(edge(r), noise * (1.0 - edge(r)))
+        }
+    };
+    let due = std::f64::consts::PI * 900.0;
+    for (wide, most, noise) in [(2.0, 255.0, 0), (4.0, 255.0, 9), (3.0, 120.0, 4)] {
+        let area = area_of_graded(disc(wide, most, noise)).expect("a mask") as f64;
+        assert!((area - due).abs() < 0.01 * due, "{area} {due}");
+    }
+    // Blurred until the border is most of it; two greys; a collimated film; one that is dark but for a spot.
+    assert_eq!(area_of_graded(disc(12.0, 255.0, 0)), None);
+    assert_eq!(area_of_graded(|r, _| f64::from(r < 30.0) * 255.0), None);
+    let film = |r: f64, k: usize| {
+        if r < 45.0 {
+            60.0 + (k % 140) as f64
+        } else {
+            0.0
+        }
+    };
+    assert_eq!(area_of_graded(film), None);
+    let spot = |r: f64, k: usize| if r < 1.0 { 255.0 } else { (k % 12) as f64 };
+    assert_eq!(area_of_graded(spot), None);
 }
 
 #[test]

@@ -2,7 +2,7 @@ import { strToU8, zipSync, type Zippable } from 'fflate';
 import { labelsOfMask, maskOfOutline, outlineOfMask, type FrameImage } from '../../pkg/core/fluoropose_wasm.js';
 import initDecode, { encodeMask, FrameFile, type DecodedFrame } from '../../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
-import type { MaskLabel, MaskPage, MasksProtocol } from '../protocol/masks';
+import type { MaskLabel, MaskLook, MaskPage, MasksProtocol } from '../protocol/masks';
 import { loadCore } from './core_module';
 import { imageOf } from './frame_pixels';
 import { serve, type Context } from './serve';
@@ -18,7 +18,7 @@ const MOST_LABELS = 8;
 serve<MasksProtocol>({
   look: async ({ bytes, name }) => {
     await ready;
-    return using(new FrameFile(bytes, name), (file) => using(file.frame(0), labelsIn));
+    return using(new FrameFile(bytes, name), (file) => using(file.frame(0), lookAt));
   },
   read: async ({ bytes, name, tolerance }, context) => {
     await ready;
@@ -59,6 +59,8 @@ async function readPages(file: FrameFile, name: string, tolerance: number, conte
 
 function readPage(frame: DecodedFrame, where: string, tolerance: number): MaskPage {
   const { width, height } = frame;
+  const graded = frame.gradedMask();
+  if (graded) return using(graded, (mask) => readPage(mask, where, tolerance));
   return using(imageOf(frame), (page) => {
     const values = labelsOfMask(page, MOST_LABELS);
     if (!values) throw new Error(`${where} has more than ${MOST_LABELS} grey values: it is no mask`);
@@ -72,11 +74,15 @@ function labelOf(page: FrameImage, value: number, tolerance: number): MaskLabel 
   });
 }
 
-/** How many labels; one grey all over is none: it shows no component. */
-function labelsIn({ pixels, width, height }: DecodedFrame): number | null {
+function lookAt(frame: DecodedFrame): MaskLook {
+  const { pixels, width, height } = frame;
   const [first] = pixels;
   if (pixels.every((grey: number) => grey === first)) return 0;
-  return using(imageOf({ pixels, width, height }), (page) => labelsOfMask(page, MOST_LABELS)?.length ?? null);
+  const labels = using(imageOf({ pixels, width, height }), (page) => labelsOfMask(page, MOST_LABELS)?.length);
+  if (labels !== undefined) return labels;
+  const graded = frame.gradedMask();
+  graded?.free();
+  return graded ? 'graded' : null;
 }
 
 function using<H extends { free(): void }, T>(held: H, work: (held: H) => T): T {

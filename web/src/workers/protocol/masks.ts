@@ -1,7 +1,6 @@
 /** What the worker of masks can do: images to outlines and back. */
 export interface MasksProtocol {
-  /** How many labels the first page has; null where it is no mask: more grey values than a mask has labels. One grey all over is no label. */
-  look: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: number | null; progress: never };
+  look: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: MaskLook; progress: never };
   /** Outlines of every label on every page; they arrive page by page. */
   read: {
     input: { bytes: Uint8Array<ArrayBuffer>; name: string; tolerance: number };
@@ -15,6 +14,12 @@ export interface MasksProtocol {
     progress: { readonly done: number; readonly total: number };
   };
 }
+
+/**
+ * How many labels the first page of a file has; one grey all over is none. More grey values than a mask has labels are graded where nearly all
+ * pixels are decided, as a network's probabilities are, and null, no mask, elsewhere.
+ */
+export type MaskLook = number | 'graded' | null;
 
 export interface MaskPage {
   readonly width: number;
