@@ -152,6 +152,12 @@ mod tests {
         film[1..5].fill(None);
         film[0] = Some(turned(9.0 + 15.0 + 17.0));
         assert_eq!(told(&film)[0], None);
+        // At the rate at which it is seen to go, in whatever frames that is seen.
+        let mut film = self::film(14);
+        film[1..5].fill(None);
+        film[6] = None;
+        film[0] = Some(turned(15.0 - 15.0 - 23.0));
+        assert!(told(&film)[0].is_some());
     }
 
     #[test]
