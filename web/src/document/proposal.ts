@@ -12,6 +12,8 @@ export interface Proposal {
   readonly match: FrameMatching;
   /** Masks: every pixel as it is, instead of few points. */
   readonly exact: boolean;
+  /** Masks: poses begin from them, and the frames' edges decide. */
+  readonly onFrames: boolean;
   /** Opens the files as frames after all; null where they cannot be frames. */
   readonly asFrames: (() => void) | null;
   /** What did not go smoothly on the way, a sentence each. */
@@ -38,6 +40,10 @@ export interface ProposedItem {
   readonly exactOutline: Outline | null;
   /** What was done on the way from a mask: specks, holes. */
   readonly notes: readonly string[];
+}
+
+export function isOfMask({ exactOutline }: ProposedItem): boolean {
+  return exactOutline !== null;
 }
 
 /** Where an item goes, or why it goes nowhere. */

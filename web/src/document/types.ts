@@ -220,11 +220,11 @@ export interface Outline {
   readonly laidBy?: LaidBy;
 }
 
-export const LAID_BY = ['tool', 'mixed', 'click'] as const;
+export const LAID_BY = ['tool', 'mixed', 'mask', 'click'] as const;
 
 /**
- * Who laid an outline on the frame where no hand did: a tool that follows edges, such a tool in part, or one click, whose outline
- * is the model's silhouette. Edges lie off the implant's outline by what its film says.
+ * Who laid an outline on the frame where no hand did: a tool that follows edges, such a tool in part, a mask from which the frame is to be looked at,
+ * or one click, whose outline is the model's silhouette. Edges lie off the implant's outline by what its film says.
  */
 export type LaidBy = (typeof LAID_BY)[number];
 

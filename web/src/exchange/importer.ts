@@ -50,7 +50,7 @@ export async function propose(services: Services, files: readonly OutlineFile[],
   }
   const match = likelyMatch(store.doc, items);
   store.show({
-    proposal: { items, subjects: subjectsOf(items, store.ui.component), match, exact: false, asFrames, remarks },
+    proposal: { items, subjects: subjectsOf(items, store.ui.component), match, exact: false, onFrames: true, asFrames, remarks },
     popover: 'import',
   });
 }

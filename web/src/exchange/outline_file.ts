@@ -15,8 +15,8 @@ import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
  * A point is column and row in pixels; the first pixel of the frame covers [0, 1) x [0, 1), rows grow downwards. Side
  * `i` runs from point `i` to the next, the last back to the first. `id` is the first 16 digits of the SHA-256 of the
  * file that holds the frame, a colon, and the frame's number in it from 0. An outline that is not closed is a draft. `laidBy` is
- * `tool` where a tool laid the outline on the frame's edges, `mixed` where it did so in part, `click` for the model's silhouette where
- * one click found it, and missing where a hand laid it.
+ * `tool` where a tool laid the outline on the frame's edges, `mixed` where it did so in part, `mask` where it came of a mask from which the frame
+ * is to be looked at, `click` for the model's silhouette where one click found it, and missing where a hand laid it.
  */
 export const OUTLINES_KIND = 'fluoropose-outlines';
 export const OUTLINES_VERSION = 1;

@@ -384,7 +384,7 @@ export function flatten({ points, unknownSides, laidBy }: Outline): Pick<MatchIn
   return {
     outline: Float64Array.from(points.flatMap(({ column, row }) => [column, row])),
     unknownSides: Uint32Array.from(unknownSides),
-    // Where its click found it, a silhouette lies on edges.
-    laidBy: laidBy === 'click' ? 'tool' : (laidBy ?? null),
+    // Where its click found it, a silhouette lies on edges; a mask lies near them.
+    laidBy: laidBy === 'click' ? 'tool' : laidBy === 'mask' ? 'mixed' : (laidBy ?? null),
   };
 }

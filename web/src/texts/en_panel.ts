@@ -24,7 +24,7 @@ export const panel = {
     fromFile: (name: string) => `From ${name}.`,
     refined: (residual: string, sure: boolean) =>
       `refined, ${residual} px; ${sure ? '± is one standard deviation' : 'the outline does not determine how sure'}`,
-    laidBy: { tool: 'a tool', mixed: 'a tool and a hand' },
+    laidBy: { tool: 'a tool', mixed: 'a tool and a hand', mask: 'a mask' },
     onEdges: (residual: string, who: string) =>
       `refined, ${residual} px, on an outline that ${who} laid on the frame's edges: ± is wide until the film is known`,
     byFilm: (residual: string, who: string) =>

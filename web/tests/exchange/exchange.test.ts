@@ -31,7 +31,7 @@ const TRACED = { [cellKey('f0', 'femur')]: triangle, [cellKey('f2', 'femur')]: s
 
 function proposal(doc: Doc, items: readonly ProposedItem[], more: Partial<Proposal> = {}): Proposal {
   const subjects = Object.fromEntries(items.map(({ subject }) => [subject, componentNamed(subject)]));
-  return { items, subjects, match: likelyMatch(doc, items), exact: false, asFrames: null, remarks: [], ...more };
+  return { items, subjects, match: likelyMatch(doc, items), exact: false, onFrames: false, asFrames: null, remarks: [], ...more };
 }
 
 function item(image: string, order: number, more: Partial<ProposedItem> = {}): ProposedItem {
@@ -180,6 +180,16 @@ describe('a proposal', () => {
     const given = proposal(store.doc, [item('1.png', 0, { exactOutline: triangle })], { exact: true });
     store.perform(importProposal(store.doc, given));
     expect(outlineAt(store, 0, 'femur')).toEqual(triangle);
+  });
+
+  it('leads poses from masks on to the frames where that is wanted; of files of outlines who laid them stays', () => {
+    const store = film(NAMES);
+    const items = [item('1.png', 0, { exactOutline: triangle }), item('2.png', 1)];
+    store.perform(importProposal(store.doc, proposal(store.doc, items, { onFrames: true })));
+    expect([outlineAt(store, 0, 'femur'), outlineAt(store, 1, 'femur')]).toEqual([{ ...square, laidBy: 'mask' }, square]);
+    store.undo();
+    store.perform(importProposal(store.doc, proposal(store.doc, items)));
+    expect(outlineAt(store, 0, 'femur')).toEqual(square);
   });
 
   it.each([['Femoral component', 'femur'], ['tibia', 'tibia'], ['tray', 'tibia'], ['tibiofemoral', null], ['1', null]])('%s means %s', (name, component) => {

@@ -1,8 +1,9 @@
 import { useEffect } from 'preact/hooks';
 import { importProposal } from '../../document/importing';
-import { assignments, componentNamed, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
+import { assignments, componentNamed, isOfMask, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
 import type { State, Store } from '../../document/store';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../../terms/component';
+import { later } from '../../texts/later';
 import { texts } from '../../texts/texts';
 import { useApp } from '../../commands/app';
 
@@ -98,11 +99,17 @@ function Options({ proposal, change }: { proposal: Proposal; change: Change }) {
           </label>
         ))}
       </fieldset>
-      {proposal.items.some(({ exactOutline }) => exactOutline) && (
-        <label class="check">
-          <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
-          {exchange.exact}
-        </label>
+      {proposal.items.some(isOfMask) && (
+        <>
+          <label class="check">
+            <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
+            {exchange.exact}
+          </label>
+          <label class="check" title={later.opening.onFramesTitle}>
+            <input type="checkbox" checked={proposal.onFrames} onChange={({ currentTarget: { checked } }) => change(() => ({ onFrames: checked }))} />
+            {later.opening.onFrames}
+          </label>
+        </>
       )}
     </div>
   );
