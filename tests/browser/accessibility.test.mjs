@@ -103,6 +103,29 @@ pageTest('accessibility', async (page, t) => {
       if (width > 860) await until(() => cutNames(page), (cut) => cut.length === 0, 'every name in the top bar to have room');
       await screenshot(page, `narrow ${width}`);
     });
+
+    await step(page, t, `${width} px: all that a tool can be set to is in sight`, async () => {
+      for (const key of ['t', 'l', 'b', 'm', 'k', 'o', 'p']) {
+        await page.keyboard.press(key);
+        await drawn(page);
+        assert.deepEqual(await cutOptions(page), [], `of the tool at ${key}`);
+      }
+    });
+
+    await step(page, t, `${width} px: sheets and numbers lie inside the window and their card`, async () => {
+      // A tool that begins outlines has turned to the other one.
+      await page.getByRole('radio', { name: 'Femur' }).click();
+      await atRest(page);
+      for (const [opener, sheet] of [['View', 'View'], ['Convergence', 'Convergence'], ['Work list', 'Work list'], ['Keys and mouse', 'Keys and mouse'], ['Save and export', 'Save and export'], [/^Shape the outline/, 'Shape']]) {
+        await page.getByRole('button', { name: opener, exact: true }).first().press('Enter');
+        const box = await page.getByRole('dialog', { name: sheet }).boundingBox();
+        assert(box && box.x >= 0 && box.x + box.width <= width, `${sheet} lies at ${box?.x}, ${box?.width} px wide`);
+        await page.keyboard.press('Escape');
+        await page.getByRole('dialog', { name: sheet }).waitFor({ state: 'hidden' });
+        await drawn(page);
+      }
+      assert.deepEqual(await numbersBeyondTheirCard(page), []);
+    });
   }
 });
 
@@ -120,8 +143,38 @@ async function tabThrough(page) {
 /** Names in the top bar that there is no room for. @param {Page} page */
 function cutNames(page) {
   return page.evaluate(() =>
-    Array.from(document.querySelectorAll('.chip-head'))
+    Array.from(document.querySelectorAll('.chip .cut-head'))
       .filter((head) => head.scrollWidth > head.clientWidth)
       .map((head) => head.parentElement?.textContent),
   );
+}
+
+/** What of the strip above the frame lies outside of it, or is cut by what it stands in. @param {Page} page */
+function cutOptions(page) {
+  return page.evaluate(() => {
+    const strip = document.querySelector('.tool-strip');
+    const parts = Array.from(strip?.querySelectorAll('button, input, label') ?? []);
+    const isCut = (/** @type {Element} */ part) => {
+      const { left, right, top, bottom } = part.getBoundingClientRect();
+      for (let around = part.parentElement; around && around !== strip?.parentElement; around = around.parentElement) {
+        const room = around.getBoundingClientRect();
+        // It has no place of its own.
+        if (room.width === 0) continue;
+        if (left < room.left - 1 || right > room.right + 1 || top < room.top - 1 || bottom > room.bottom + 1) return true;
+      }
+      return false;
+    };
+    return parts.filter(isCut).map((part) => part.getAttribute('aria-label') ?? part.textContent);
+  });
+}
+
+/** Numbers of the pose whose unit stands on or beyond the border of their card. @param {Page} page */
+function numbersBeyondTheirCard(page) {
+  return page.evaluate(() => {
+    const card = document.querySelector('.card.pose');
+    const edge = card ? card.getBoundingClientRect().right - parseFloat(getComputedStyle(card).paddingRight) : 0;
+    return Array.from(card?.querySelectorAll('.number') ?? [])
+      .filter((number) => number.getBoundingClientRect().right > edge || number.scrollWidth > number.clientWidth)
+      .map((number) => number.textContent);
+  });
 }

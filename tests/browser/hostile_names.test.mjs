@@ -1,6 +1,6 @@
 /** Names of files that are markup, run from right to left or never end make nothing of the page but text. */
 import assert from 'node:assert/strict';
-import { pageTest, step } from './support/browser.mjs';
+import { drawn, pageTest, step } from './support/browser.mjs';
 import { choose, file } from './support/files.mjs';
 import { png } from './support/frames.mjs';
 import * as panel from './support/panel.mjs';
@@ -15,6 +15,18 @@ pageTest('hostile names', async (page, t) => {
   });
 
   await step(page, t, 'make no element, run nothing and widen nothing', () => harmless(page));
+
+  await step(page, t, 'are cut in their middle: what tells frames apart stands at the end', async () => {
+    const title = () => page.locator('.frame-name').getAttribute('title');
+    const frames = page.getByRole('slider', { name: 'Frame' });
+    for (let turn = 0; turn < NAMES.length && (await title()) !== NAMES[1]; turn++) {
+      await frames.press('ArrowRight');
+      await drawn(page);
+    }
+    assert.equal(await title(), NAMES[1]);
+    const [room, end] = [await page.locator('.frame-name').boundingBox(), await page.locator('.frame-name').getByText('xxxxx.png', { exact: true }).boundingBox()];
+    assert(room && end && end.x >= room.x && end.x + end.width <= room.x + room.width + 1, 'the end of the name is in sight');
+  });
 
   await step(page, t, 'of files that are none of ours are told as text', async () => {
     for (const name of NAMES) {

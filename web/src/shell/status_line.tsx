@@ -98,10 +98,11 @@ const TICK = 1000;
 function JobBar({ job }: { job: Job }) {
   useTicking();
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
+  const text = texts.status.job(job.title, countOf(job), seconds);
   return (
     <div class="job">
-      <span class="job-text">
-        {texts.status.job(job.title, countOf(job), seconds)}
+      <span class="job-text" title={text}>
+        {text}
       </span>
       <progress aria-label={job.title} value={job.total > 0 ? job.done : undefined} max={job.total > 0 ? job.total : 1} />
       <button type="button" class="button small" aria-label={texts.status.cancelJob(job.title)} onClick={job.cancel}>

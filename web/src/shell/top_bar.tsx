@@ -4,6 +4,7 @@ import type { Popover, State } from '../document/store';
 import type { Side } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { useApp } from '../commands/app';
+import { CutName } from '../controls/cut_name';
 import { Icon } from '../controls/icons';
 import { SavedState } from './saved_state';
 import { StepBar } from './step_bar';
@@ -195,16 +196,6 @@ function ComponentChip({ state, component }: { state: State; component: Componen
   return <Chip state={state} popover={component} label={titleOf(component)} text={text + suffix} missing={!model && !libraryFile} tint={component} />;
 }
 
-/** Names are cut before so many last letters: what tells files of a study apart mostly stands there. */
-const TAIL = 9;
-
-/** A head of one or two letters would take more room than it has letters for, and look like a word of its own. */
-const LEAST_HEAD = 3;
-
-function cutAt(text: string): number {
-  return text.length < TAIL + LEAST_HEAD ? 0 : text.length - TAIL;
-}
-
 interface ChipProps {
   readonly state: State;
   readonly popover: Popover;
@@ -231,8 +222,7 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
         <span class="chip-colon">:</span>
       </span>{' '}
       <span class="chip-text">
-        <span class="chip-head">{text.slice(0, cutAt(text))}</span>
-        <span class="chip-tail">{text.slice(cutAt(text))}</span>
+        <CutName text={text} />
       </span>
     </button>
   );

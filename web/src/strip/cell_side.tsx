@@ -1,4 +1,5 @@
 import { useEffect, useRef } from 'preact/hooks';
+import { CutName } from '../controls/cut_name';
 import { checkState, markOf, NO_MARK } from '../document/marks';
 import { currentCell, currentFrame, currentPlace, type State } from '../document/store';
 import { texts } from '../texts/texts';
@@ -16,7 +17,7 @@ export function CellSide({ state }: { state: State }) {
     <div class={`cell-side ${state.ui.component}`}>
       <div class="cell-side-head">
         <span class="frame-name" title={frame?.name}>
-          {frame?.name ?? ''}
+          <CutName text={frame?.name ?? ''} />
         </span>
         <button
           type="button"
