@@ -24,6 +24,7 @@ import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';
 import { componentToOutline } from '../results/steps';
 import type { ToolName } from '../terms/tool';
+import { redo, undo } from './undoing';
 import { WorkActions } from './work_actions';
 
 /** Tools that begin outlines. A brush changes the one that there is. */
@@ -85,10 +86,10 @@ export class Actions {
       case 'tracing':
         return this.#trace(action.command);
       case 'undo':
-        this.#undo();
+        undo(store);
         return true;
       case 'redo':
-        store.redo();
+        redo(store);
         return true;
       case 'save':
         void this.saveSession();
@@ -323,14 +324,6 @@ export class Actions {
       const { openDemonstration } = await import('../exchange/demonstration');
       await openDemonstration(this.#services);
     });
-  }
-
-  /** What was done last is a click, while it is still answered. */
-  #undo(): void {
-    const click = this.#store.ui.jobs.findLast(({ at }) => at !== undefined);
-    if (!click) return this.#store.undo();
-    click.cancel();
-    this.#store.say('info', texts.said.clickTakenBack);
   }
 
   async saveSession(includeFiles = true): Promise<void> {

@@ -115,7 +115,7 @@ export class Follower {
     const before: Before = new Map();
     const begun = store.doc;
     const cancel = () => abort.abort();
-    const job = { title: texts.follow.job, unit: texts.follow.unit, total: framesOf(parts), cancel };
+    const job = { title: texts.follow.job, unit: texts.follow.posesUnit, total: framesOf(parts), cancel };
     const found = await asJob(store, job, (report) => this.#all(parts, before, report, { signal: abort.signal, cancel }));
     const isAsBefore = isOfTheSame(store.doc, begun);
     const left = [...before.values()].map(([place, cell]) => [place, isAsBefore ? cell : anew(cell)] as const);

@@ -211,8 +211,8 @@ export const en = {
   /** Going through frames and components. */
   work: {
     keys: {
-      'next-unfinished': 'Next cell that is not finished',
-      'previous-unfinished': 'Previous cell that is not finished',
+      'next-unfinished': 'Next pose that is not finished',
+      'previous-unfinished': 'Previous pose that is not finished',
       'toggle-checked': 'Mark as checked, or not',
       'toggle-flagged': 'Flag for another look, or take the flag away',
       'write-note': 'Write a note',
@@ -264,7 +264,7 @@ export const en = {
     filterGroup: 'Show',
     nothing: {
       all: 'No frames yet.',
-      unfinished: 'Every cell has a pose.',
+      unfinished: 'No pose is missing.',
       unchecked: 'Every pose has been checked.',
       doubtful: 'No pose is doubtful.',
       flagged: 'Nothing is flagged.',
@@ -276,10 +276,10 @@ export const en = {
     flagRow: (frame: number, component: string) => `Frame ${frame}, ${component}, flagged`,
     legend: 'Marks in the cells',
     marks: { checked: 'checked', changed: 'changed since', doubtful: 'doubtful', flagged: 'flagged', noted: 'has a note', outdated: 'outdated' },
-    allDone: 'Nothing is left to do: every cell has a pose and was checked.',
+    allDone: 'Nothing is left to do: no pose is missing, and all were checked.',
     nextUnfinished: (frame: number, component: string, state: string) => `Frame ${frame}, ${component}: ${state}.`,
     nextDoubtful: (frame: number, component: string) => `Doubtful: frame ${frame}, ${component}. Y accepts it and goes on, N leaves it for later.`,
-    nextUnchecked: (frame: number, component: string) => `Every cell has a pose. Next to check: frame ${frame}, ${component} (Y marks it as checked).`,
+    nextUnchecked: (frame: number, component: string) => `No pose is missing. Next to check: frame ${frame}, ${component} (Y marks it as checked).`,
     nothingToCheck: 'Nothing to check here yet: there is neither an outline nor a pose.',
     nextLacking: (frame: number, component: string) => `No pose: frame ${frame}, ${component}. A click there finds it, Y says that it is not there.`,
     saidAbsent: (frame: number, component: string) => `Frame ${frame}, ${component}: marked as not there.`,

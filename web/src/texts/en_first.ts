@@ -13,8 +13,8 @@ export const first = {
     check: (doubtful: number) => `Check ${doubtful}`,
     checkTitle: (doubtful: number, lacking: number) => {
       const poses = doubtful === 0 ? [] : [`${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful`];
-      const cells = lacking === 0 ? [] : [`${lacking} ${lacking === 1 ? 'cell has' : 'cells have'} none`];
-      return `${[...poses, ...cells].join(', ')}: go through them, the worst first (N)`;
+      const missing = lacking === 0 ? [] : [`${lacking}${doubtful > 0 ? '' : lacking === 1 ? ' pose' : ' poses'} ${lacking === 1 ? 'is' : 'are'} missing`];
+      return `${[...poses, ...missing].join(', ')}: go through them, the worst first (N)`;
     },
   },
   card: {
@@ -23,7 +23,7 @@ export const first = {
     now: (component: string) => `Now the ${component}`,
     clickText: 'Anywhere inside it: outline and pose come by themselves.',
     preparing: (component: string) => `The views of the ${component} are being prepared: a click waits for them.`,
-    followText: (frames: number) => `${frames} ${frames === 1 ? 'cell is' : 'cells are'} yet to be followed; what you set by hand or checked stays as it is, what you clicked is refined with the film.`,
+    followText: (poses: number) => `${poses} ${poses === 1 ? 'pose is' : 'poses are'} still to be found. What you set by hand or checked stays as it is; what you clicked is refined with the film.`,
     shaky: (components: string) => `The pose of the ${components} is doubtful, and so would be what follows from it: look at it first.`,
     look: 'Doubtful: look at it',
     follow: 'Follow the film',

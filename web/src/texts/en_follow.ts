@@ -15,6 +15,8 @@ export const follow = {
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
   unit: 'frames',
+  /** What is found, of both components: twice as many as there are frames. */
+  posesUnit: 'poses',
   sourceKept: 'Followed through the film, and kept: it was checked.',
   source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
   soFar: 'the film has not been judged as a whole yet: it is being followed, or that was broken off, and Follow goes on',
@@ -36,6 +38,6 @@ export const follow = {
   /** How many are doubtful the header counts: what film and joint tell afterwards changes it. */
   done: (posed: number, doubtful: 'none' | 'some' | 'all', missing: number, stopped: boolean) =>
     `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful === 'none' ? '' : `, ${doubtful} doubtful: N goes from one to the next`}.${
-      missing > 0 ? ` ${missing} ${missing === 1 ? 'cell is' : 'cells are'} without one (✕): a click there, or an outline, helps.` : ''
+      missing > 0 ? ` ${missing} ${missing === 1 ? 'is' : 'are'} missing (✕): a click there, or an outline, helps.` : ''
     }`,
 };

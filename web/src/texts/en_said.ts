@@ -26,6 +26,11 @@ export const said = {
   outlinesNeedFrames: 'outlines are for frames: open the frames first, then the outlines',
   posesNeedFrames: 'the poses are for frames: open the frames first, then the poses',
   emptyFile: 'the file is empty; export or copy it again',
+  undone: (what: string, where: string | null) => `Undone: ${what}${where ?? ''}. Ctrl+Y does it again.`,
+  redone: (what: string, where: string | null) => `Done again: ${what}${where ?? ''}.`,
+  where: (frame: number, component: string) => ` (frame ${frame}, ${component})`,
+  nothingToUndo: 'There is nothing to undo.',
+  nothingToRedo: 'There is nothing to do again.',
   clickTakenBack: 'The click is taken back; undo once more goes on before it.',
   notRecognised:
     'not recognised; the page opens frames (PNG, JPEG, TIFF, BMP, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',

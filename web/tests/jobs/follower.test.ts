@@ -149,9 +149,13 @@ describe('following', () => {
   it('fills the frames that nobody set as one step back, with verdicts and what was not found', async () => {
     const { store, follower, xs } = bench([5]);
     store.perform(setPoseByHand(place(1), poseOf(0)));
+    const counted = new Set<string>();
+    store.subscribe(() => store.ui.jobs.forEach(({ title, unit }) => title === 'Following the film' && counted.add(unit)));
     await follower.follow();
+    // Of two components there are twice as many as frames.
+    expect([...counted]).toEqual(['poses']);
     expect(xs()).toEqual([10, 0, 12, 13, 14, null]);
-    expect(store.ui.notice?.text).toBe('5 poses found, some doubtful: N goes from one to the next. 1 cell is without one (\u2715): a click there, or an outline, helps.');
+    expect(store.ui.notice?.text).toBe('5 poses found, some doubtful: N goes from one to the next. 1 is missing (\u2715): a click there, or an outline, helps.');
     expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' }, doubt: 2, candidates: [{ pose: poseOf(14) }, { pose: poseOf(-4), residual: 0.3 }] });
     expect(cellOf(store.doc, 'f5', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'As untrackable says.' });
     store.undo();

@@ -23,7 +23,9 @@ describe('sentences', () => {
   });
 
   it('of following say how many cells were left without a pose', () => {
-    expect(en.follow.done(14, 'some', 8, false)).toContain('8 cells are without one');
+    expect(en.first.steps.checkTitle(1, 2)).toBe('1 pose is doubtful, 2 are missing: go through them, the worst first (N)');
+    expect(en.first.steps.checkTitle(0, 1)).toBe('1 pose is missing: go through them, the worst first (N)');
+    expect(en.follow.done(14, 'some', 8, false)).toContain('8 are missing');
     expect(en.follow.done(14, 'none', 0, false)).toBe('14 poses found.');
   });
 });
