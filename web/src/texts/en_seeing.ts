@@ -34,7 +34,7 @@ export const seeing = {
     axes: { across: 'y rotation', down: 'x rotation' },
     scale: (least: string, most: string) => `${least} to ${most} px unmatched, bright to dark`,
     working: 'Scoring ...',
-    none: 'A closed outline and its library have a landscape.',
+    none: 'How well each view fits, as a map: click the implant (O), or trace it (P), and it comes here.',
     byHand: 'The pose was set by hand: go back to the page’s pose to take a view.',
   },
   edges: {
