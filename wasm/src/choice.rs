@@ -142,7 +142,7 @@ impl Surroundings {
         match choice.open {
             Some(open) if choice.reason.is_decided() => {
                 format!(
-                    "{reason} Another pose is open: residual {:.2} px.",
+                    "{reason} Another pose is possible too: residual {:.2} px.",
                     open.other_px
                 )
             }
@@ -161,22 +161,24 @@ impl Surroundings {
                 chosen_px,
                 other_px,
             } if other_px.is_finite() => {
-                format!("By the residual: {chosen_px:.2} px, the pose ruled out {other_px:.2} px.")
+                format!(
+                    "It fits best: residual {chosen_px:.2} px, of the other pose {other_px:.2} px."
+                )
             }
             Reason::Residual { chosen_px, .. } => {
-                format!("By the residual: {chosen_px:.2} px; the others do not fit at all.")
+                format!("It fits best: residual {chosen_px:.2} px; the others do not fit at all.")
             }
             Reason::Knee {
                 chosen_deg,
                 other_deg,
             } => format!(
-                "By the {other}: mediolateral axes are {chosen_deg:.0}° apart, with the pose ruled out {other_deg:.0}°, which no knee does."
+                "It goes with the {other}: their mediolateral axes are {chosen_deg:.0}° apart, with the other pose {other_deg:.0}°, which no knee does."
             ),
             Reason::Tilt {
                 chosen_deg,
                 other_deg,
             } => format!(
-                "By the coronal tilt against the {other}: {}°, the pose ruled out {}°.",
+                "It goes with the {other}: its coronal tilt against it is {}°, with the other pose {}°.",
                 tenths(chosen_deg),
                 tenths(other_deg)
             ),
@@ -184,19 +186,19 @@ impl Surroundings {
                 chosen_deg,
                 other_deg,
             } => format!(
-                "By continuity: turned {}° from the neighbouring frames, the pose ruled out {}°.",
+                "It goes with the neighbouring frames: turned {}° from them, the other pose {}°.",
                 tenths(chosen_deg),
                 tenths(other_deg)
             ),
             Reason::Film { saved_deg } => format!(
-                "By continuity: the film jumps by {}° more with another pose.",
+                "It goes with the neighbouring frames: with another pose the film jumps by {}° more.",
                 tenths(saved_deg)
             ),
             Reason::Undecided {
                 chosen_px,
                 other_px,
             } => format!(
-                "Undecided: the residuals are {chosen_px:.2} and {other_px:.2} px, and nothing else tells the poses apart."
+                "Not decided: the residuals are {chosen_px:.2} and {other_px:.2} px, and nothing else tells the poses apart."
             ),
         }
     }
@@ -351,7 +353,7 @@ mod tests {
             !chosen.decided()
                 && chosen
                     .sentence
-                    .starts_with("Undecided: the residuals are 0.30")
+                    .starts_with("Not decided: the residuals are 0.30")
         );
         let doubt = chosen.doubt().unwrap();
         assert!(
@@ -364,7 +366,7 @@ mod tests {
         assert_eq!(chosen.doubt(), None);
         assert_eq!(
             chosen.sentence,
-            "By continuity: turned 0.5° from the neighbouring frames, the pose ruled out 7.5°."
+            "It goes with the neighbouring frames: turned 0.5° from them, the other pose 7.5°."
         );
     }
 
@@ -392,7 +394,7 @@ mod tests {
             .against(&[turned(6.0), with(0.1, 0.0)])
             .expect("likelier");
         assert!(
-            likelier.contains("6 degrees away, is likelier (By the residual: 0.10 px"),
+            likelier.contains("6 degrees away, is likelier (It fits best: residual 0.10 px"),
             "{likelier}"
         );
         assert_eq!(around.against(&[turned(6.0), with(0.9, 0.0)]), None);
@@ -402,7 +404,10 @@ mod tests {
         let likelier = around
             .against(&[turned(0.0), with(0.31, 6.0)])
             .expect("likelier");
-        assert!(likelier.contains("By continuity"), "{likelier}");
+        assert!(
+            likelier.contains("It goes with the neighbouring frames"),
+            "{likelier}"
+        );
     }
 
     #[test]
@@ -417,7 +422,7 @@ mod tests {
         assert!(
             chosen
                 .sentence
-                .starts_with("By the coronal tilt against the femur: 0.0°")
+                .starts_with("It goes with the femur: its coronal tilt against it is 0.0°")
         );
     }
 
@@ -440,7 +445,7 @@ mod tests {
         around.set_axes(&axes).ok().unwrap();
         let chosen = Chosen::among(&both, &around).unwrap();
         assert_eq!(chosen.index(), 1);
-        let tilt = "By the coronal tilt against the femur: 0.0°";
+        let tilt = "It goes with the femur: its coronal tilt against it is 0.0°";
         assert!(chosen.sentence.starts_with(tilt), "{}", chosen.sentence);
     }
 }

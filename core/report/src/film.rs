@@ -250,7 +250,7 @@ impl JointFilm {
         };
         match self.accepted() {
             0 => doubtful,
-            some => format!("{doubtful}, {some} that were until a person accepted them"),
+            some => format!("{doubtful}, {some} more that were until a person checked them"),
         }
     }
 
@@ -262,11 +262,16 @@ impl JointFilm {
         told.chain(self.remarks.iter().cloned()).collect()
     }
 
-    /// What a reader has to know of the verdicts on the poses: that there are none, and what a person accepted. Sentences.
+    /// That there are no verdicts on the poses, where that is so: a sentence.
+    pub(crate) fn no_verdicts_told(&self) -> Option<&'static str> {
+        (!self.has_verdicts).then_some(NO_VERDICTS)
+    }
+
+    /// What a reader has to know of the verdicts on the poses: that there are none, and which a person has checked that were doubtful. Sentences.
     #[must_use]
     pub fn verdicts_told(&self) -> Vec<String> {
         let mut told: Vec<String> = Vec::new();
-        told.extend((!self.has_verdicts).then(|| NO_VERDICTS.to_owned()));
+        told.extend(self.no_verdicts_told().map(str::to_owned));
         let frames = self.rows.iter().filter_map(|row| {
             let accepted = row.accepted.as_deref()?;
             Some(format!("{} ({accepted})", row.number))
@@ -274,7 +279,7 @@ impl JointFilm {
         let frames: Vec<String> = frames.collect();
         if !frames.is_empty() {
             told.push(format!(
-                "Frames with poses that were doubtful, and that a person accepted: {}.",
+                "Frames with poses that were doubtful until a person checked them: {}.",
                 frames.join(", ")
             ));
         }

@@ -9,7 +9,7 @@ use fluoropose::joint::shared::KnownTo;
 
 use crate::facts::{CONVENTIONS, Facts, filter, times};
 use crate::figure::figure;
-use crate::film::{JointFilm, ORIGINS};
+use crate::film::{JointFilm, JointRow, ORIGINS};
 use crate::plus_minus::plus_minus;
 use crate::svg::escaped;
 
@@ -213,29 +213,26 @@ fn doubts(out: &mut String, film: &JointFilm) {
     let missing = film.rows.iter().filter(|row| row.joint.is_none());
     let missing: Vec<usize> = missing.map(|row| row.number).collect();
     out.push_str("<h2>Doubtful and missing frames</h2>\n");
-    let reasons = reasons(film);
+    let doubtful = reasons(film, |row| row.doubt.as_deref());
     if let Some(all) = all_doubtful(film) {
         let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&all));
     }
-    if reasons.is_empty() {
+    if doubtful.is_empty() {
         let none = match film.has_verdicts {
             true => "No frame is marked as doubtful.",
             false => "Which frames are doubtful is not known: the poses come without verdicts.",
         };
         let _ = writeln!(out, "<p>{none}</p>");
     } else {
-        out.push_str(
-            "<table><thead><tr><th>frames</th><th class=\"word\">why</th></tr></thead><tbody>\n",
+        reasons_table(out, &doubtful);
+    }
+    let checked = reasons(film, |row| row.accepted.as_deref());
+    if !checked.is_empty() {
+        let _ = writeln!(
+            out,
+            "<p>Doubtful until a person checked them and found them right; they count:</p>"
         );
-        for (why, frames) in reasons {
-            let _ = writeln!(
-                out,
-                "<tr><td class=\"frames\">{}</td><td class=\"word\">{}</td></tr>",
-                in_runs(&frames),
-                escaped(why)
-            );
-        }
-        out.push_str("</tbody></table>\n");
+        reasons_table(out, &checked);
     }
     if !missing.is_empty() {
         let _ = writeln!(
@@ -244,6 +241,21 @@ fn doubts(out: &mut String, film: &JointFilm) {
             in_runs(&missing)
         );
     }
+}
+
+fn reasons_table(out: &mut String, reasons: &[(&str, Vec<usize>)]) {
+    out.push_str(
+        "<table><thead><tr><th>frames</th><th class=\"word\">why</th></tr></thead><tbody>\n",
+    );
+    for (why, frames) in reasons {
+        let _ = writeln!(
+            out,
+            "<tr><td class=\"frames\">{}</td><td class=\"word\">{}</td></tr>",
+            in_runs(frames),
+            escaped(why)
+        );
+    }
+    out.push_str("</tbody></table>\n");
 }
 
 /// What is said once for a film of which nothing can be relied on.
@@ -259,10 +271,10 @@ fn all_doubtful(film: &JointFilm) -> Option<String> {
 }
 
 /// Each reason once, with its frames, in the order in which they come up.
-fn reasons(film: &JointFilm) -> Vec<(&str, Vec<usize>)> {
+fn reasons(film: &JointFilm, of: impl Fn(&JointRow) -> Option<&str>) -> Vec<(&str, Vec<usize>)> {
     let mut all: Vec<(&str, Vec<usize>)> = Vec::new();
     for row in &film.rows {
-        let Some(why) = row.doubt.as_deref() else {
+        let Some(why) = of(row) else {
             continue;
         };
         match all.iter_mut().find(|(known, _)| *known == why) {
@@ -313,12 +325,13 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
     say(
         "The centre of rotation takes what errs from frame to frame as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
     );
-    let verdicts = film.verdicts_told();
+    let verdicts = film.no_verdicts_told();
     // Those of the knee stand at the top.
     let others = facts.remarks.iter();
     let others = others.filter(|remark| !film.remarks.contains(remark));
-    let remarks = verdicts.iter().chain(others);
-    for remark in remarks.chain(&film.origins_told()) {
+    let remarks = verdicts.iter().copied().chain(others.map(String::as_str));
+    let origins = film.origins_told();
+    for remark in remarks.chain(origins.iter().map(String::as_str)) {
         say(remark);
     }
     out.push_str("</ul>\n");

@@ -60,7 +60,7 @@ impl Distrust {
             Self::Side(_) => "ambiguous",
             Self::Ways(_) => "two ways",
             Self::Jump(..) => "jump",
-            Self::Beside => "beside doubt",
+            Self::Beside => "neighbours",
             Self::Few { .. } => "few",
             Self::Faint(_) => "faint",
             Self::Apart(..) | Self::Unmet(_) => "residual",
@@ -86,10 +86,10 @@ impl Distrust {
 impl fmt::Display for Distrust {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Side(Rival::Mirrored) => f.write_str("its mirror image is as likely"),
-            Self::Side(Rival::Elsewhere) => {
-                f.write_str("a pose some degrees beside it, which is no mirror image, is as likely")
-            }
+            Self::Side(Rival::Mirrored) => f.write_str("its mirror image fits as well"),
+            Self::Side(Rival::Elsewhere) => f.write_str(
+                "another pose some degrees away, which is not its mirror image, fits as well",
+            ),
             Self::Ways(deg) => write!(
                 f,
                 "the ways from both ends of the film come to poses {deg:.1} degrees apart"
@@ -99,7 +99,7 @@ impl fmt::Display for Distrust {
                 "it lies {deg:.1} degrees and {mm:.1} mm off the way between the frames beside it"
             ),
             Self::Beside => f.write_str(
-                "the frames beside it are doubtful themselves, so that it says little that they agree",
+                "the frames next to it are doubtful too, so that their agreement proves little",
             ),
             Self::Few { good, poses } => write!(
                 f,
@@ -215,12 +215,12 @@ mod tests {
         assert_told(
             Distrust::Side(Rival::Mirrored),
             "ambiguous",
-            &["mirror image is as likely"],
+            &["mirror image fits as well"],
         );
         assert_told(
             Distrust::Side(Rival::Elsewhere),
             "ambiguous",
-            &["no mirror image"],
+            &["not its mirror image"],
         );
         assert_told(
             Distrust::Shape(KneeComponent::Femur),

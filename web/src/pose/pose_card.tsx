@@ -74,8 +74,9 @@ function VerdictLine({ result, isAccepted }: { result: Result | null; isAccepted
   const { word, because } = verdict;
   if (isAccepted) {
     return (
-      <p class="verdict is-accepted" role="group" aria-label={words.verdict} title={words.accepted(because)}>
+      <p class="verdict is-accepted" role="group" aria-label={words.verdict}>
         <span class="verdict-word">{words.verdicts.accepted}</span>
+        {words.accepted(because)}
       </p>
     );
   }

@@ -23,7 +23,7 @@ export const follow = {
   unjudged: (component: string, frames: number) =>
     `${frames === 1 ? 'One frame' : `${frames} frames`} of the ${component} ${frames === 1 ? 'is' : 'are'} followed so far and not yet judged with the whole film: save again when that is done.`,
   fromDoubtful: 'it was followed from a pose that is doubtful itself: check that one, or set it by hand',
-  accepted: (doubt: string) => `a person accepted it; it was doubtful: ${doubt}`,
+  accepted: (doubt: string) => `a person checked it; it was doubtful: ${doubt}`,
   /** The verdict on the pose in whose place it was taken, and why. */
   taken: (word: string, because: string) => `it was taken by hand in place of the first, which was ${word}: ${because}`,
   notJudged: 'it was not held against the frame',

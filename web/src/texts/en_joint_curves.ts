@@ -57,7 +57,7 @@ export const curves = {
   noBands: 'no bands: poses without standard deviations',
   good: 'not doubtful',
   doubtful: 'doubtful',
-  checked: 'checked or accepted',
+  checked: 'checked',
   /** A translation of the first frame of which that is so. */
   originsApart: (mm: string) =>
     `A translation is ${mm} mm, as in no knee: the origin of a model's file lies far off its component. Translations are of these origins; rotations and lowest points are free of them.`,

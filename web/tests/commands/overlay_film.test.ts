@@ -51,7 +51,7 @@ describe('a film of overlays', () => {
     store.perform(takeHandFit(place, { candidate: bare(poseOf(1)), reason: 'r', verdict: { word: 'doubtful', because: 'too deep' }, onFrame: null }));
     expect(notesOn(store.doc, 1)).toEqual(['Femur doubtful: too deep', 'Tibia: no pose']);
     store.perform(toggleChecked(place));
-    expect(notesOn(store.doc, 1)).toEqual(['Femur: a person accepted it; it was doubtful: too deep', 'Tibia: no pose']);
+    expect(notesOn(store.doc, 1)).toEqual(['Femur: a person checked it; it was doubtful: too deep', 'Tibia: no pose']);
     expect(notesOn(store.doc, 9)).toEqual([]);
   });
 });

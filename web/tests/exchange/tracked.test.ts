@@ -77,7 +77,7 @@ describe('poses as the commands take them', () => {
     expect(because({ from: 'file', verdict: null })).toBe('it was not held against the frame');
     expect(because({ from: 'file', verdict: null }, true)).toBe('a person fixed the pose');
     expect(because({ from: 'file' })).toBe('it fits');
-    expect(because({ verdict: { word: 'doubtful', because: 'so' } }, true)).toBe('a person accepted it; it was doubtful: so');
+    expect(because({ verdict: { word: 'doubtful', because: 'so' } }, true)).toBe('a person checked it; it was doubtful: so');
   });
 
   it('say of a pose that a person took instead of the followed one what that leaves, and that the other was doubtful', () => {

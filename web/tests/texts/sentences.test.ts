@@ -13,7 +13,7 @@ describe('sentences', () => {
 
   it('of a doubt that asks end in its question mark', () => {
     expect(en.tracing.said.oneClickFound('Tibia', 'Doubtful', 'does it lie on other edges?')).toBe('Tibia: Doubtful, does it lie on other edges?');
-    expect(en.panel.pose.accepted('does it lie on other edges?')).toBe('It was doubtful: does it lie on other edges? You found it right.');
+    expect(en.panel.pose.accepted('does it lie on other edges?')).toBe('. It was doubtful: does it lie on other edges?');
   });
 
   it('of a model are told apart', () => {

@@ -249,7 +249,7 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
     };
     let (page, heading) = told(&film(0.0));
     assert!(page.contains("29 with a pose of both components, 1 doubtful. Made by"));
-    assert!(!page.contains("Nothing says") && !heading.contains("accepted"));
+    assert!(!page.contains("Nothing says") && !heading.contains("until a person"));
 
     let mut unjudged = film(0.0);
     unjudged.has_verdicts = false;
@@ -277,7 +277,7 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
         row.accepted = Some("tibia: ambiguous, perhaps".to_owned());
     }
     let (page, heading) = told(&accepted);
-    assert!(page.contains("1 doubtful, 2 that were until a person accepted them"));
+    assert!(page.contains("1 doubtful, 2 more that were until a person checked them"));
     accepted.remarks.push("Side: <left>?".to_owned());
     let facts = Facts {
         remarks: accepted.remarks.clone(),
@@ -287,11 +287,16 @@ fn what_nobody_judged_is_not_said_to_be_good_and_what_a_person_accepted_is_told(
     let parts = html(&accepted, &facts);
     let parts: Vec<&str> = parts.split("Side: &lt;left&gt;?").collect();
     assert!(parts.len() == 2 && !parts[0].contains("<h2>"));
-    let frames = "accepted: 14 (tibia: ambiguous, perhaps), 15 (tibia: ambiguous, perhaps).";
-    assert!(
-        page.contains(frames) && heading.contains(frames),
-        "{heading}"
-    );
+    let frames = "checked them: 14 (tibia: ambiguous, perhaps), 15 (tibia: ambiguous, perhaps).";
+    assert!(heading.contains(frames), "{heading}");
+    // A row for each reason with all its frames, and no sentence that is as long as the film.
+    assert!(!page.contains(frames));
+    let row =
+        "<td class=\"frames\">14\u{2013}15</td><td class=\"word\">tibia: ambiguous, perhaps</td>";
+    let (_, section) = page
+        .split_once("Doubtful until a person checked them")
+        .expect("its heading");
+    assert!(section.contains(row), "{section}");
 }
 
 /// As it is without models: lift-off and lowest points are not known, nor how well.

@@ -142,7 +142,7 @@ fn a_pose_between_two_that_may_be_others_is_as_doubtful() {
     let [before, own, after] = judged([8.0, 0.0, 6.0]);
     assert_eq!(
         [before.0, own.0, after.0],
-        [Some("two ways"), Some("beside doubt"), Some("two ways")]
+        [Some("two ways"), Some("neighbours"), Some("two ways")]
     );
     assert!(
         own.1 > 1.0 && own.1 == after.1 && after.1 < before.1,
@@ -150,7 +150,7 @@ fn a_pose_between_two_that_may_be_others_is_as_doubtful() {
     );
     assert_eq!(judged([8.0, 0.0, 0.0])[1].0, None);
     let [first, ..] = judged([0.0, 8.0, 0.0]);
-    assert_eq!(first.0, Some("beside doubt"), "it has one beside it");
+    assert_eq!(first.0, Some("neighbours"), "it has one beside it");
 }
 
 /// How bad the pose of a frame by itself is where 0.4 px and full strength are usual, and why.

@@ -14,8 +14,11 @@ const ONE_MM: f64 = 0.01;
 /// their turns, degrees: tables are rounded.
 const ONE_DEG: f64 = 0.01;
 
-/// Before the reason why a pose was doubtful that a person accepted, in the page's table.
-const ACCEPTED: &str = "a person accepted it; it was doubtful: ";
+/// Before the reason why a pose was doubtful that a person has checked, in the page's table; the second in tables of before.
+const ACCEPTED: [&str; 2] = [
+    "a person checked it; it was doubtful: ",
+    "a person accepted it; it was doubtful: ",
+];
 
 /// The columns of a pose.
 const NUMBERS: [&str; 6] = [
@@ -52,7 +55,8 @@ impl State {
 
     /// Why it was doubtful, where a person accepted it.
     pub fn accepted(&self) -> Option<&str> {
-        self.because.strip_prefix(ACCEPTED)
+        let said = |words: &&str| self.because.strip_prefix(*words);
+        ACCEPTED.iter().find_map(said)
     }
 }
 

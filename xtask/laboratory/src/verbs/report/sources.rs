@@ -380,7 +380,13 @@ mod tests {
         let accepted_it = "a person accepted it; it was doubtful: a jump";
         let states = [
             state(0, "femur", "good", accepted_it),
-            state(0, "tibia", "good", accepted_it),
+            // As the page says it now.
+            state(
+                0,
+                "tibia",
+                "good",
+                &accepted_it.replace("accepted", "checked"),
+            ),
             state(1, "femur", "doubtful", "a rim"),
             state(1, "tibia", "none", "no edge"),
         ];
