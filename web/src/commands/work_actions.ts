@@ -1,7 +1,7 @@
 import { canBeChecked, checkState, markOf, setNote, toggleChecked, toggleFlagged } from '../document/marks';
 import { type Doubt, doubtsOf, nextDoubt } from '../results/doubts';
 import { nextTask } from '../results/progress';
-import { standingOf } from '../results/steps';
+import { hasBothComponents, standingOf } from '../results/steps';
 import type { Place } from '../document/command';
 import { currentPlace, type Store } from '../document/store';
 import { cellOf, type Doc } from '../document/types';
@@ -44,6 +44,10 @@ export class WorkActions {
         void this.follower?.follow();
         return this.follower !== null;
       case 'joint-curves':
+        if (!hasBothComponents(this.#store.doc)) {
+          this.#store.say('info', texts.joint.oneComponent);
+          return true;
+        }
         this.#store.setJoint({ open: !this.#store.ui.joint.open });
         return true;
       case 'work-list':

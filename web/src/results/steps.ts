@@ -55,6 +55,14 @@ export function isReady(doc: Doc): boolean {
   return doc.frames.length > 0 && doc.calibration !== null && COMPONENT_NAMES.some((component) => doc.components[component].model !== null);
 }
 
+/** A joint can come about. */
+export function hasBothComponents(doc: Doc): boolean {
+  return COMPONENT_NAMES.every((component) => {
+    const { model, libraryFile } = doc.components[component];
+    return model !== null || libraryFile !== null || doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)));
+  });
+}
+
 /** What no frame can have a pose without, and nobody gave; null where all is there or there is no frame yet. */
 export function whatIsMissing(doc: Doc): 'calibration' | ComponentName | null {
   if (doc.frames.length === 0) return null;

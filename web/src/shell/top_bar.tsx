@@ -8,7 +8,7 @@ import { CutName } from '../controls/cut_name';
 import { Icon } from '../controls/icons';
 import { SavedState } from './saved_state';
 import { StepBar } from './step_bar';
-import { standingOf, whatIsMissing } from '../results/steps';
+import { hasBothComponents, standingOf, whatIsMissing } from '../results/steps';
 import { texts } from '../texts/texts';
 
 const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
@@ -119,7 +119,7 @@ function WayOn({ state }: { state: State }) {
       </button>
     );
   }
-  if (step === 'joint' && !state.ui.joint.open) {
+  if (step === 'joint' && !state.ui.joint.open && hasBothComponents(doc)) {
     return (
       <button type="button" class="button primary" aria-keyshortcuts="Shift+K" title={texts.withKey(texts.joint.open, 'Shift + K')} onClick={() => actions.run({ name: 'work', command: 'joint-curves' })}>
         {texts.joint.title}

@@ -56,6 +56,15 @@ function loseIn(store: Store, frame: number) {
   store.perform({ label: 'follow', apply: (doc) => withCell(doc, place(frame), { outline: null, result, resultOf: null }) });
 }
 
+describe('the joint of one component', () => {
+  it('is not opened where nobody would see it: what it needs is said', () => {
+    const { store, work } = bench([0, 0]);
+    work.run('joint-curves');
+    expect(store.ui.joint.open).toBe(false);
+    expect(store.ui.notice?.text).toMatch(/^A joint needs both components/);
+  });
+});
+
 describe('a cell without a pose', () => {
   it('stands in the queue behind what is doubtful, and leads to the check', () => {
     const { store } = bench([0, 1.1, 0]);

@@ -1,21 +1,11 @@
 import { useLater } from '../../commands/later';
 import { useApp } from '../../commands/app';
 import type { State } from '../../document/store';
-import { cellOf, chosenCandidate, type Doc } from '../../document/types';
 import { motionNeeds } from '../../results/motion';
-import { standingOf } from '../../results/steps';
-import { COMPONENT_NAMES } from '../../terms/component';
+import { hasBothComponents, standingOf } from '../../results/steps';
 import { texts } from '../../texts/texts';
 
 const load = () => import('./curves');
-
-/** There is a place for the joint as soon as one can come about: the frame must not jump when the first pose does. */
-function hasBothComponents(doc: Doc): boolean {
-  return COMPONENT_NAMES.every((component) => {
-    const { model, libraryFile } = doc.components[component];
-    return model !== null || libraryFile !== null || doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)));
-  });
-}
 
 /** How the joint moves: one line until somebody opens it, then curves. */
 export function JointDock({ state }: { state: State }) {
@@ -24,6 +14,7 @@ export function JointDock({ state }: { state: State }) {
   const { open, height, over } = state.ui.joint;
   const doc = state.history.present;
   const loaded = useLater(open, load);
+  // There is a place for it as soon as a joint can come about: the frame must not jump when the first pose does.
   if (!hasBothComponents(doc)) return null;
   const words = texts.joint;
   // One line that says what is missing needs no more room than that.
