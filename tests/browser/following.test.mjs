@@ -1,6 +1,6 @@
 /** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
 import assert from 'node:assert/strict';
-import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { Calls, followedWithOtherConstants, PRESS } from './support/calls.mjs';
 import { exported } from './support/exporting.mjs';
 import { keepFollowed } from './support/followed.mjs';
@@ -197,6 +197,21 @@ function waitForFollowed(page, count) {
   return until(() => panel.cells(page), (cells) => cells.filter((cell) => /: followed(,|$)/.test(cell)).length === count, `${count} cells to be followed`);
 }
 
+/**
+ * In a narrow window too rivals stand side by side, what to do is in sight, and half of the film is not covered.
+ *
+ * @param {Page} page
+ * @param {import('playwright-core').Locator} doubt
+ * @param {import('playwright-core').Locator} rivals
+ */
+async function liesOnTheFilm(page, doubt, rivals) {
+  const boxes = (/** @type {import('playwright-core').Locator} */ parts) => parts.evaluateAll((all) => all.map((part) => part.getBoundingClientRect().toJSON()));
+  const [[stage], [whole], radios, buttons] = await Promise.all([page.getByRole('application', { name: /outline$/ }), doubt, rivals.getByRole('radio'), doubt.getByRole('button')].map(boxes));
+  assert(whole.height < stage.height / 2, `the card is ${whole.height} px high on a film of ${stage.height}`);
+  assert(radios.every(({ top }) => top === radios[0].top), 'one rival lies below another');
+  for (const { top, bottom } of buttons) assert(top >= stage.top && bottom <= stage.bottom, `a button at ${top} to ${bottom} on a film to ${stage.bottom}`);
+}
+
 /** @param {Page} page @param {import('node:test').TestContext} t */
 async function checked(page, t) {
   await card(page).getByRole('button', { name: 'Doubtful: look at it' }).click();
@@ -209,6 +224,10 @@ async function checked(page, t) {
   await page.setViewportSize({ width: 1024, height: 700 });
   for (const part of ['.check-why', '.check-picture']) await doubt.locator(part).first().waitFor();
   await screenshot(page, 'check at 1024 x 700');
+  await page.setViewportSize({ width: 700, height: 700 });
+  await drawn(page);
+  await liesOnTheFilm(page, doubt, rivals);
+  await screenshot(page, 'check at 700 x 700');
   await page.setViewportSize({ width: 1440, height: 900 });
   // Without the side of the body nobody can tell rivals by their angles.
   await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
