@@ -1,5 +1,5 @@
 import { nextRedo, nextUndo } from '../document/history';
-import type { Store } from '../document/store';
+import { currentCell, type Store } from '../document/store';
 import { texts } from '../texts/texts';
 
 /** A step back or forward, and a word on what it was: it may lie in a frame that nobody has on view, or change what is not in sight. */
@@ -13,13 +13,19 @@ export function undo(store: Store): void {
   }
   const step = nextUndo(store.state.history);
   store.undo();
-  store.say('info', step ? texts.said.undone(step.label, whereOf(store, step)) : texts.said.nothingToUndo);
+  tell(store, step ? texts.said.undone(step.label, whereOf(store, step)) : texts.said.nothingToUndo);
 }
 
 export function redo(store: Store): void {
   const step = nextRedo(store.state.history);
   store.redo();
-  store.say('info', step ? texts.said.redone(step.label, whereOf(store, step)) : texts.said.nothingToRedo);
+  tell(store, step ? texts.said.redone(step.label, whereOf(store, step)) : texts.said.nothingToRedo);
+}
+
+/** Of an outline that is being drawn the line says already how many points it has and what the next click does, which news would hide. */
+function tell(store: Store, sentence: string): void {
+  if (currentCell(store.state).outline?.closed === false) store.quiet();
+  else store.say('info', sentence);
 }
 
 /** Frame and component of a step that is about one cell, while that frame is there. */

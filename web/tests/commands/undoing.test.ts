@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from 'vitest';
 import { redo, undo } from '../../src/commands/undoing';
-import { addFrames, rename } from '../../src/document/commands';
+import { addFrames, rename, withCell } from '../../src/document/commands';
 import { toggleFlagged } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 
@@ -34,6 +34,22 @@ describe('a step back', () => {
     expect(store.ui.notice?.text).toBe('There is nothing to undo.');
     redo(store);
     expect(store.ui.notice?.text).toBe('There is nothing to do again.');
+  });
+
+  it('leaves the line to the hint while an outline is drawn: it counts its points', () => {
+    const { store, said } = bench();
+    const place = { frameId: 'f0', component: 'femur' } as const;
+    const point = (column: number) => ({ column, row: 0 });
+    const draw = (count: number) => store.perform({ label: 'add a point', place, apply: (doc) => withCell(doc, place, { outline: { points: Array.from({ length: count }, (_, at) => point(at)), closed: false, unknownSides: [] }, result: null, resultOf: null } as never) });
+    draw(1);
+    draw(2);
+    undo(store);
+    expect(said()).toBeUndefined();
+    redo(store);
+    expect(said()).toBeUndefined();
+    undo(store);
+    undo(store);
+    expect(said()).toBe('Undone: add a point (frame 1, femur). Ctrl+Y does it again.');
   });
 
   it('takes a click back while it is answered', () => {
