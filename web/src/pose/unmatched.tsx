@@ -8,8 +8,7 @@ const SIZE = 256;
 
 function described({ clipped, partial, milliseconds }: Findings): string {
   const { unmatched } = texts.panel;
-  const say = partial ? unmatched.partial : clipped ? unmatched.clipped : unmatched.found;
-  return say(milliseconds.toFixed(1));
+  return partial ? unmatched.partial : clipped ? unmatched.clipped : unmatched.found(milliseconds.toFixed(0));
 }
 
 /** Both canonical silhouettes in one frame, black where they differ: the figure of Walker et al. 1996. */

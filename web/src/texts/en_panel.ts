@@ -91,9 +91,9 @@ export const panel = {
     region: 'Unmatched pixels in the canonical frame',
     picture: 'Outline and library view in canonical form, black where they differ',
     working: 'No picture of the match yet',
-    differs: 'differs',
-    partial: (milliseconds: string) => `from a part of the outline · ${milliseconds} ms`,
-    clipped: (milliseconds: string) => `larger than the picture · ${milliseconds} ms`,
+    differs: 'outline and model differ',
+    partial: 'from a part of the outline',
+    clipped: 'cut by the picture',
     found: (milliseconds: string) => `found in ${milliseconds} ms`,
   },
 
