@@ -66,11 +66,13 @@ export class WorkActions {
       this.#store.say('info', texts.work.nothingToCheck);
       return true;
     }
-    const next = this.#store.ui.checking ? nextDoubt(doc, place, 1) : null;
+    const { checking } = this.#store.ui;
+    const next = checking ? nextDoubt(doc, place, 1) : null;
     this.#store.perform(toggleChecked(place));
     const now = checkState(cell, markOf(this.#store.doc, place)) === 'yes';
     const said = cell.result?.kind === 'failed' ? texts.work.saidAbsent : texts.work.saidChecked;
-    this.#say(place, now ? said : texts.work.saidUnchecked);
+    const isLast = checking && now && doubtsOf(this.#store.doc).length === 0;
+    this.#say(place, isLast ? texts.work.saidLast : now ? said : texts.work.saidUnchecked);
     // Who goes through what is doubtful goes on.
     if (now && next) this.goTo(stillDoubtful(this.#store.doc, next).place);
     if (doubtsOf(this.#store.doc).length === 0) this.#store.show({ checking: false });

@@ -283,6 +283,7 @@ export const en = {
     nothingToCheck: 'Nothing to check here yet: there is neither an outline nor a pose.',
     nextLacking: (frame: number, component: string) => `No pose: frame ${frame}, ${component}. A click there finds it, Y says that it is not there.`,
     saidAbsent: (frame: number, component: string) => `Frame ${frame}, ${component}: marked as not there.`,
+    saidLast: (frame: number, component: string) => `Frame ${frame}, ${component}: checked. Nothing doubtful or missing is left.`,
     saidChecked: (frame: number, component: string) => `Frame ${frame}, ${component}: checked.`,
     saidUnchecked: (frame: number, component: string) => `Frame ${frame}, ${component}: no longer marked as checked.`,
     saidFlagged: (frame: number, component: string) => `Frame ${frame}, ${component}: flagged.`,

@@ -45,8 +45,10 @@ describe('what is doubtful', () => {
     expect(store.ui.frameIndex).toBe(1);
     work.run('toggle-checked');
     expect(store.ui.frameIndex).toBe(2);
+    expect(store.ui.notice?.text).not.toMatch(/is left/);
     work.run('toggle-checked');
     expect(store.ui.checking).toBe(false);
+    expect(store.ui.notice?.text).toBe('Frame 3, femur: checked. Nothing doubtful or missing is left.');
   });
 });
 
