@@ -1,5 +1,6 @@
 //! What a file is, by its content.
 
+mod camera_form;
 pub(crate) mod stl_form;
 
 use crate::dicom::is_dicom;
@@ -32,7 +33,7 @@ pub enum Kind {
     Jts,
     /// A calibration (`JT_INTCALIB`).
     Calibration,
-    /// A camera matrix (MayaCam 2.0).
+    /// A camera matrix (MayaCam 2.0, or as OpenCV, ROS or MATLAB write one).
     Mayacam,
     /// A pose library of this project.
     Library,
@@ -212,12 +213,12 @@ fn is_video(bytes: &[u8]) -> bool {
 fn text_kind(bytes: &[u8]) -> Option<Kind> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{FEFF}').trim_start();
-    let first = text.lines().next().unwrap_or_default().trim();
+    let first = camera_form::first_said(text);
     if POSES.iter().any(|form| text.starts_with(form)) {
         Some(Kind::Jts)
-    } else if text.starts_with("JT_INTCALIB") || text.starts_with("JTA_INTCALIB") {
+    } else if first.starts_with("JT_INTCALIB") || first.starts_with("JTA_INTCALIB") {
         Some(Kind::Calibration)
-    } else if first.eq_ignore_ascii_case("image size") {
+    } else if camera_form::is_mayacam(first) {
         Some(Kind::Mayacam)
     } else if text.starts_with('{') && text.contains("fluoropose-session") {
         Some(Kind::Session)
@@ -233,6 +234,8 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
         Some(Kind::Stl)
     } else if text.lines().any(is_obj_line) {
         Some(Kind::Obj)
+    } else if camera_form::is_other(text) {
+        Some(Kind::Mayacam)
     } else {
         None
     }

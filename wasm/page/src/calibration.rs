@@ -30,7 +30,7 @@ pub struct CalibrationText(Calibration);
 
 #[wasm_bindgen]
 impl CalibrationText {
-    /// Reads `JT_INTCALIB` or the camera matrix of MayaCam 2.0.
+    /// Reads `JT_INTCALIB` or a camera matrix, in any form that the core reads.
     ///
     /// # Errors
     /// The core's sentence about the line or value at fault.

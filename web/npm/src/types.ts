@@ -70,7 +70,7 @@ export interface StatedFilm {
 export interface ImplantOptions {
   /** The CAD model of the very size: a file's bytes (STL, OBJ or PLY in mm), or its triangles. */
   readonly model: Uint8Array | ArrayBuffer | Mesh;
-  /** The text of a `JT_INTCALIB` or MayaCam 2.0 file. */
+  /** The text of a calibration file: `JT_INTCALIB`, MayaCam 2.0, or a camera matrix as OpenCV, ROS or MATLAB write it. */
   readonly calibration: string;
   readonly frame: Size;
   /** A library made before (`Implant.library`): nothing needs to be rendered. It is refused when it is of another model. */

@@ -1,7 +1,7 @@
 /** English of the sheets of calibration and convergence. */
 
 export const calibration = {
-  none: 'No calibration yet. Drop a JT_INTCALIB or MayaCam file, or type the numbers.',
+  none: 'No calibration yet. Drop its file (JT_INTCALIB, MayaCam 2.0, a camera matrix of OpenCV, ROS or MATLAB), or type the numbers.',
   nameOnly: (name: string) => `${name}.`,
   facts: (name: string, focal: string, column: string, row: string) =>
     `${name}: focal length ${focal} px, principal point at ${column}, ${row} px.`,

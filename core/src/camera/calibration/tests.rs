@@ -45,6 +45,66 @@ fn below_the_pixel_pitch_stand_notes_and_no_number() {
     }
 }
 
+/// As other laboratories have it; a decimal comma is no list.
+#[test]
+fn jt_intcalib_is_read_on_one_line_and_with_notes() {
+    let same = Calibration::parse("JT_INTCALIB\n1198\n0\n-1.5\n0.373\n");
+    assert!(same.is_ok());
+    for text in [
+        "JT_INTCALIB 1198 0 -1.5 0.373",
+        "JT_INTCALIB,1198,0,-1.5,0.373\r\n",
+        "JT_INTCALIB: 1198; 0; -1.5; 0.373",
+        "JT_INTCALIB\n1198, 0, -1.5, 0.373\n",
+        "JT_INTCALIB\r\n1198,0,-1.5,0.373\r\n",
+        "JT_INTCALIB\r1198\r0\r-1.5\r0.373\r",
+        "# room 2\nJT_INTCALIB v1\n1198 # distance\n0 // x\n\n% y\n-1.5\n0.373 % pitch\n",
+    ] {
+        assert_eq!(Calibration::parse(text), same, "{text:?}");
+    }
+    for (text, line) in [
+        ("JT_INTCALIB\n1198\n0\n-1,5\n0.373\n", 4),
+        ("JT_INTCALIB\n1198,0\n0\n0\n0,373\n", 2),
+        ("JT_INTCALIB\n1198 0 0 0,373\n", 2),
+        ("JT_INTCALIB 1198 0 0,373\n", 1),
+    ] {
+        let error = Calibration::parse(text);
+        assert_eq!(
+            error,
+            Err(CalibrationError::DecimalComma { line }),
+            "{text:?}"
+        );
+    }
+    for text in [
+        "JT_INTCALIB 1198 0 0",
+        "JT_INTCALIB\n1198 0\n0 0.373",
+        "JT_INTCALIB 1198 0 0 0.3 9",
+    ] {
+        let error = Calibration::parse(text).expect_err(text);
+        assert!(
+            matches!(error, CalibrationError::Number { .. }),
+            "{text:?}: {error}"
+        );
+    }
+    let more = Calibration::parse("JT_INTCALIB 1198 0 0 0.3\n1198\n");
+    assert_eq!(more, Err(CalibrationError::OneMore { line: 2 }));
+}
+
+/// Of one program's manual the height stands first, of the other's the width.
+#[test]
+fn sides_the_other_way_round_are_told_as_such() {
+    let matrix = Calibration::parse(MATRIX).expect("valid");
+    let told = |width, height| {
+        matrix
+            .camera(width, height)
+            .expect_err("another size")
+            .to_string()
+    };
+    assert!(told(768, 1024).contains("the other way round"));
+    assert!(told(512, 384).contains("neither scaled nor cut"));
+    let noted = MATRIX.replace("image size\r\n", "# left camera\r\nImage size:\r\n");
+    assert_eq!(Calibration::parse(&noted), Ok(matrix));
+}
+
 #[test]
 fn a_part_at_a_distance_that_nobody_tells_is_looked_for_from_two() {
     let matrix = Calibration::parse(MATRIX).expect("valid");

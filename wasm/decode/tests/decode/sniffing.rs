@@ -73,6 +73,43 @@ fn content_decides_whatever_the_name() {
     }
 }
 
+/// Whether it says enough of a camera, its reader tells.
+#[test]
+fn calibrations_of_other_programs_are_recognised_and_programs_are_not() {
+    for (text, kind) in [
+        ("# room 2\nJT_INTCALIB 1198 0 0 0.373\n", Kind::Calibration),
+        ("# left\nImage size:\n1024,1024\n", Kind::Mayacam),
+        (
+            "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n",
+            Kind::Mayacam,
+        ),
+        (
+            "<?xml version=\"1.0\"?>\n<opencv_storage>\n<cameraMatrix type_id=\"opencv-matrix\">",
+            Kind::Mayacam,
+        ),
+        (
+            "image_width: 640\ncamera_matrix:\n  rows: 3\n",
+            Kind::Mayacam,
+        ),
+        (
+            "{\"ImageSize\":[768,1024],\"IntrinsicMatrix\":[[1]]}",
+            Kind::Mayacam,
+        ),
+        (
+            "% Intrinsic parameters\nfc = [ 1 ; 2 ];\ncc = [ 3 ; 4 ];\n",
+            Kind::Mayacam,
+        ),
+        ("K:\n- 3200.0\nheight: 3\n", Kind::Mayacam),
+        ("1e3 0 512\n0 1e3 512\n0 0 1\n", Kind::Mayacam),
+        ("1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n", Kind::Mayacam),
+        ("1 2 3\n4 5 6\n", Kind::Unknown),
+        ("import cv2\ncamera_matrix = np.eye(3)\n", Kind::Unknown),
+        ("# Notes\nThe camera_matrix is in K.\n", Kind::Unknown),
+    ] {
+        assert_eq!(sniff(text.as_bytes(), "x.txt"), kind, "{text}");
+    }
+}
+
 #[test]
 fn a_name_helps_where_content_cannot_tell() {
     assert_eq!(sniff(&[0; 50], "Knee.STL"), Kind::Stl);

@@ -9,7 +9,7 @@ use fluoropose::camera::calibration::Calibration;
 use super::text::read_text;
 use crate::options::Pair;
 
-/// Reads a `JT_INTCALIB` or camera-matrix calibration.
+/// Reads a calibration in any form that the core reads.
 ///
 /// # Errors
 /// Names the file and the line.
