@@ -79,13 +79,14 @@ function writtenIn({ calibration, parts }: Study): readonly string[] {
   return [calibration, ...parts.map(({ model }) => model)].filter((written) => typeof written === 'string');
 }
 
-/** Where the study names the folder of its frames, pictures elsewhere are none: a report's figure, overlays. */
+/** Where the study names the folder of its frames, or the file that holds them all, pictures elsewhere are none: a report's figure, overlays. */
 export function framesMeant(found: StudyFile | null, images: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
   const written = found?.study.frames;
   if (!found || !written) return images;
   const folders = [resolved(found.folder, written), resolved('', written)];
-  const there = images.filter((file) => parentOf(pathOf(file)) === folders[0]);
-  const meant = there.length > 0 ? there : images.filter((file) => `/${parentOf(pathOf(file))}`.endsWith(`/${folders[1]}`));
+  const places = (file: Recognised) => [pathOf(file), parentOf(pathOf(file))];
+  const there = images.filter((file) => places(file).includes(folders[0] ?? ''));
+  const meant = there.length > 0 ? there : images.filter((file) => places(file).some((place) => `/${place}`.endsWith(`/${folders[1]}`)));
   if (meant.length === 0 || meant.length === images.length) return images;
   const others = images.filter((file) => !meant.includes(file));
   leftOut.push(later.study.otherImages(others.length, fewNames(others)));

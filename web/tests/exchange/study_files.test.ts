@@ -43,6 +43,11 @@ describe('a study that names its files', () => {
     expect(frames()).toEqual(['f1.png']);
   });
 
+  it('gets the one file that holds its frames', async () => {
+    const { frames } = await opened(study('/knee/study.toml', `frames = "run.png"\n${femur('femur.stl')}`), ...['run.png', 'run.png.png', 'other.png'].map((name) => at(`/knee/${name}`)));
+    expect(frames()).toEqual(['run.png']);
+  });
+
   it('gets one beside its folder', async () => {
     const { isModel } = await opened(study('/all/knee/study.toml', femur('../models/femur.stl')), at('/all/models/femur.stl'), at('/all/knee/models/femur.stl'));
     expect(await isModel('/all/models/femur.stl')).toBe(true);

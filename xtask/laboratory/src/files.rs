@@ -14,6 +14,7 @@ mod pose_rows;
 mod poses;
 mod role;
 mod stated_axes;
+mod stated_geometry;
 mod states;
 mod study;
 mod text;

@@ -17,6 +17,8 @@ use crate::mask_buffer::MaskBuffer;
 
 /// How masks are disturbed before poses are found.
 #[derive(clap::Args, Clone, Copy, Debug, PartialEq)]
+#[group(skip)]
+#[command(group = clap::ArgGroup::new("disturbed").args(["jitter", "occlude"]).multiple(true))]
 pub struct DisturbanceOptions {
     /// Move each outline along its normal by Gaussian noise of this standard deviation, pixels
     #[arg(
@@ -48,7 +50,7 @@ pub struct DisturbanceOptions {
     #[arg(long, requires = "occlude")]
     pub unmarked: bool,
     /// Seed of jitter and occluders
-    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "disturbed")]
     pub noise_seed: u64,
 }
 

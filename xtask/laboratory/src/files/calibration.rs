@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose_decode::{Kind, sniff};
 
-use super::text::read_text;
+use super::stated_geometry::stated_by;
+use super::text::{read, text_of};
 use crate::options::Pair;
 
 /// Reads a calibration in any form that the core reads.
@@ -14,7 +16,17 @@ use crate::options::Pair;
 /// # Errors
 /// Names the file and the line.
 pub fn read_calibration(path: &Path) -> Result<Calibration> {
-    Calibration::parse(&read_text(path)?).with_context(|| format!("in {}", path.display()))
+    let bytes = read(path)?;
+    if matches!(sniff(&bytes, ""), Kind::Dicom) {
+        let stated =
+            stated_by(path).unwrap_or_else(|| "it states nothing of its camera".to_owned());
+        bail!(
+            "{} is a DICOM file, and a calibration is text: {stated}",
+            path.display()
+        );
+    }
+    let read = text_of(bytes).and_then(|text| Ok(Calibration::parse(&text)?));
+    read.with_context(|| format!("in {}", path.display()))
 }
 
 /// The camera of frames of a size, and what is unusual of it, a sentence each: most often the calibration is wrong then.

@@ -12,10 +12,14 @@ use super::text::name_of;
 const OF_SYSTEMS: [&str; 4] = ["thumbs.db", "ehthumbs.db", "desktop.ini", "icon\r"];
 
 /// The files of a folder in the order of their names ([`name_order`]): the order of the frames. Files that systems put there are passed over.
+/// A file in place of a folder is all there is: DICOM and TIFF hold whole films.
 ///
 /// # Errors
 /// When the folder cannot be listed or holds no file.
 pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    if folder.is_file() {
+        return Ok(vec![folder.to_owned()]);
+    }
     let entries =
         fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
     let mut files: Vec<(String, PathBuf)> = entries
@@ -68,6 +72,8 @@ mod tests {
             fs::write(folder.join(name), name).unwrap();
         }
         let files = files_in(&folder).unwrap();
+        let only = folder.join("f2.png");
+        assert_eq!(files_in(&only).unwrap(), [only]);
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink("nowhere", folder.join("f4.png")).unwrap();

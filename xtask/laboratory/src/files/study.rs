@@ -1,12 +1,13 @@
 //! Studies: `study.toml` and the files that it names.
 
+mod absent;
 mod keys;
 mod sizes;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde::Deserialize;
 
 use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm, MOST_BLUR_PX};
@@ -15,11 +16,13 @@ use fluoropose::mesh::suspected_unit;
 use fluoropose_phantom::implant::Side;
 
 use super::name::check_file_name;
+use absent::why_absent;
 use keys::Checked;
 
 use super::model::{Unit, read_model_in};
 use super::role::Role;
 use super::stated_axes::axes_doubt;
+use super::stated_geometry::stated_by;
 use super::text::read_text;
 
 /// So many letters in which a name differs may be slips.
@@ -234,7 +237,14 @@ impl Study {
     }
 
     fn of(text: &str, path: &Path) -> Result<(Self, Vec<String>)> {
-        let checked = Checked::of(text)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let checked = Checked::of(text).map_err(|error| {
+            let frames = keys::frames_without_calibration(text, &error);
+            match frames.and_then(|frames| stated_by(&found_in(folder, &frames))) {
+                Some(stated) => anyhow!("{error}: {stated}"),
+                None => error,
+            }
+        })?;
         let mut study: Self = toml::from_str(text)?;
         study.lines = checked.lines;
         study.file = path.to_owned();
@@ -243,7 +253,8 @@ impl Study {
         let mut remarks = checked.remarks;
         remarks.extend(study.without_role());
         remarks.extend(study.half_stated());
-        study.resolve(path.parent().unwrap_or(Path::new("")))?;
+        remarks.extend(study.of_one_role());
+        study.resolve(folder)?;
         Ok((study, remarks))
     }
 
@@ -287,10 +298,11 @@ impl Study {
             if !path.exists() {
                 let name = key.rsplit('.').next().unwrap_or(&key);
                 bail!(
-                    "in {}: {}{name}: there is no {}",
+                    "in {}: {}{name}: there is no {}{}",
                     self.file.display(),
                     self.line(&key),
-                    path.display()
+                    path.display(),
+                    why_absent(path)
                 );
             }
         }
@@ -319,6 +331,29 @@ impl Study {
             ))
         };
         others.filter_map(remark).collect()
+    }
+
+    /// Components beside another of the same role: a sentence each, without its full stop.
+    fn of_one_role(&self) -> Vec<String> {
+        let remark = |(number, one): (usize, &Component)| {
+            let role = one.role()?;
+            let before = &self.components[..number];
+            let first = before.iter().position(|other| other.role() == Some(role))?;
+            let line = |number: usize| self.line(&format!("component.{number}"));
+            Some(format!(
+                "{}the component {:?} is a second {}, beside {:?} ({}): joint numbers are those of the first alone, and two of one model are found in one place",
+                line(number),
+                one.name,
+                match role {
+                    Role::Femur => "femur",
+                    Role::Tibia => "tibia",
+                },
+                before[first].name,
+                line(first).trim_end_matches(": "),
+            ))
+        };
+        let all = self.components.iter().enumerate();
+        all.filter_map(remark).collect()
     }
 
     /// The component of a name.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use fluoropose_phantom::whole;
 use fluoropose_report::Figure;
 use sha2::{Digest, Sha256};
@@ -48,8 +48,27 @@ fn at_rest(
 /// # Errors
 /// Names the file.
 pub fn read_text(path: &Path) -> Result<String> {
-    let text = String::from_utf8(read(path)?).ok();
-    text.with_context(|| format!("{} is no text", path.display()))
+    text_of(read(path)?).with_context(|| path.display().to_string())
+}
+
+/// The text of some bytes.
+///
+/// # Errors
+/// Says in which other form they are, and what to do.
+pub(super) fn text_of(bytes: Vec<u8>) -> Result<String> {
+    const WIDE: [[u8; 2]; 2] = [[0xFF, 0xFE], [0xFE, 0xFF]];
+    if WIDE.iter().any(|mark| bytes.starts_with(mark)) {
+        bail!("this is text in UTF-16, which editors call Unicode: save it as UTF-8");
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let (place, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
+        let before = &bytes[..place];
+        if bytes.contains(&0) {
+            return anyhow!("this is no text");
+        }
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        anyhow!("line {line} has a letter that is not in UTF-8, as ones with marks above them: save the file as UTF-8")
+    })
 }
 
 /// The name of a file without its folder.
@@ -136,6 +155,19 @@ mod tests {
             fields.iter().map(|field| plain(field)).collect::<Vec<_>>(),
             texts
         );
+    }
+
+    #[test]
+    fn text_in_another_form_is_told_with_what_to_do() {
+        let told = |bytes: &[u8]| text_of(bytes.to_vec()).unwrap_err().to_string();
+        assert!(told(b"\xFF\xFEJ\0T\0").contains("UTF-16"));
+        let latin = told(b"name = 's'\n# R\xF6hre\n");
+        assert!(
+            latin.starts_with("line 2 has a letter that is not in UTF-8"),
+            "{latin}"
+        );
+        assert_eq!(told(b"\x89PNG\r\n\0\0"), "this is no text");
+        assert_eq!(text_of("Röhre".into()).unwrap(), "Röhre");
     }
 
     #[test]

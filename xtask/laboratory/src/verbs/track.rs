@@ -7,6 +7,7 @@ mod follow;
 mod followed;
 mod journal;
 mod judged;
+mod left_over;
 mod metal;
 mod mirrored;
 mod part;

@@ -234,3 +234,35 @@ fn impossible_numbers_are_named() {
     assert!(message(hidden(f64::NAN)).contains("--occlude"));
     assert!(DisturbanceOptions::default().check().is_ok());
 }
+
+/// A seed without what it is for would change nothing, and nobody would know.
+#[test]
+fn a_seed_is_of_jitter_or_occluders() {
+    use clap::Parser as _;
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: DisturbanceOptions,
+    }
+    let read = |words: &str| Line::try_parse_from(format!("x {words}").split_whitespace());
+    for words in [
+        "",
+        "--jitter 1 --noise-seed 3",
+        "--occlude 0.1 --noise-seed 3",
+        "--jitter 1 --occlude 0.1",
+    ] {
+        assert!(read(words).is_ok(), "{words}");
+    }
+    let told = read("--noise-seed 3").err().map(|error| error.to_string());
+    let told = told.expect("refused");
+    assert!(
+        told.contains("--jitter") && told.contains("--occlude"),
+        "{told}"
+    );
+    let both = read("--jitter 1 --occlude 0.1 --noise-seed 3").map(|line| line.options);
+    assert_eq!(
+        both.map(|options| (options.jitter, options.noise_seed))
+            .ok(),
+        Some((1.0, 3))
+    );
+}

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
@@ -63,7 +64,7 @@ const STUDY: &[Key] = &[
     optional(
         "frames",
         Kind::Path,
-        r#"frames = "frames", the folder of the grey frames"#,
+        r#"frames = "frames", the folder of the grey frames or a file that holds them all"#,
     ),
     optional("frames_per_s", Kind::Above0, "frames_per_s = 15.0"),
     optional("film", Kind::Table(FILM), "[film]"),
@@ -107,6 +108,16 @@ pub(super) fn missing(name: &str) -> String {
     let example = STUDY.iter().find(|key| key.name == name);
     let example = example.map_or("", |key| key.example);
     format!("the key {name} is missing, as in {example}")
+}
+
+/// The frames of a study of which nothing is wrong but that it has no calibration.
+pub(super) fn frames_without_calibration(text: &str, error: &anyhow::Error) -> Option<PathBuf> {
+    if error.to_string() != missing("calibration") {
+        return None;
+    }
+    let table = DeTable::parse(text).ok()?;
+    let frames = table.get_ref().get("frames")?.get_ref();
+    frames.as_str().map(PathBuf::from)
 }
 
 /// What a study's text was checked for.

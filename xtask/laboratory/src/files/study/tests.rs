@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod stated;
+
 fn read(text: &str) -> Result<Study> {
     let name = format!(
         "fluoropose-study-{}-{}.toml",
@@ -360,6 +362,57 @@ fn a_file_that_is_not_there_is_told_with_its_key() {
         "{told}"
     );
     assert!(told.ends_with("f.stl"), "{told}");
+}
+
+#[test]
+fn what_may_be_meant_by_a_file_that_is_not_there_is_told() {
+    let folder = std::env::temp_dir().join(format!("fluoropose-absent-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("Frames")).unwrap();
+    // A letter and its mark, as systems write it that take names apart.
+    std::fs::create_dir_all(folder.join("Ro\u{308}ntgen")).unwrap();
+    std::fs::write(folder.join("f.STL"), "").unwrap();
+    std::fs::write(folder.join("c.txt"), "").unwrap();
+    let told = |frames: &str, model: &str| {
+        let text = format!("{STUDY}frames = '{frames}'\n{FEMUR}").replace("f.stl", model);
+        let study = Study::of(&text, &folder.join("s.toml")).unwrap().0;
+        let frames = study.frames_folder().unwrap();
+        format!("{:#}", study.check_files(Some(frames)).unwrap_err())
+    };
+    let cases = [
+        told("Frames", "f.ply"),
+        told("frames", "f.STL"),
+        told("R\u{f6}ntgen", "f.STL"),
+        told("x/frames", "f.STL"),
+        told("Frames/*.png", "f.STL"),
+        told("films", "f.STL"),
+    ];
+    std::fs::remove_dir_all(&folder).unwrap();
+    let ends = [
+        ": was \"f.STL\" meant?",
+        ": was \"Frames\" meant?",
+        "that look alike; copy its name",
+        "x is not there",
+        ": patterns are not read, name the folder or one file",
+        "films",
+    ];
+    for (told, end) in cases.iter().zip(ends) {
+        assert!(told.ends_with(end), "{told}");
+    }
+}
+
+/// The joint is of one femur and one tibia: of two nothing tells which.
+#[test]
+fn two_components_of_one_role_are_told() {
+    let text =
+        format!("{STUDY}{FEMUR}[[component]]\nname = 'old'\nrole = 'femur'\nmodel = 'f.stl'\n");
+    let (_, remarks) = Study::of(&text, Path::new("s.toml")).unwrap();
+    let [told] = remarks.try_into().unwrap();
+    assert!(
+        told.starts_with(
+            "line 6: the component \"old\" is a second femur, beside \"femur\" (line 3)"
+        ),
+        "{told}"
+    );
 }
 
 #[test]

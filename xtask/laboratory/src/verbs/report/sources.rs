@@ -246,7 +246,7 @@ impl Body {
             component.with_context(|| format!("{} names no {word} component", study.name))?;
         let file = pose_file(component, poses).with_context(|| {
             format!(
-                "{} has no reference poses: name a folder of poses",
+                "{} has no reference poses: name a folder of poses with --poses, or its reference in the study",
                 component.name
             )
         })?;

@@ -18,6 +18,7 @@ use super::constants::{learn_again, learn_film};
 use super::followed::followed;
 use super::journal::Journal;
 use super::judged::{good, judged};
+use super::left_over::left_over;
 use super::metal::begun;
 use super::mirrored::beside;
 use super::part::{Part, Shape, read_models};
@@ -115,6 +116,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
     check_written(request, &study)?;
+    let left = left_over(&request.out, &study).map(Told::Remark);
+    left.into_iter().for_each(&*request.listener);
     let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
     let stated = Stated::of(study.film, &attenuations);
     let digest = digest(request, &study, &film, &models, &stated)?;
