@@ -3,14 +3,24 @@
 use fluoropose_page::calibration;
 use wasm_bindgen::prelude::*;
 
-/// What is unusual of the camera of a calibration text for frames of `width` x `height` pixels: sentences without their full stops.
+/// What is unusual of the camera of a calibration text for frames of `width` x `height` pixels: sentences without their full stops. Where their
+/// file states it: `distance` mm from source to detector, and `spacing`, mm between pixels there along a row and from row to row.
 ///
 /// # Errors
 /// The core's sentence about the calibration.
 #[wasm_bindgen(js_name = cameraDoubts)]
-pub fn camera_doubts(text: &str, width: u32, height: u32) -> Result<Vec<String>, JsError> {
+pub fn camera_doubts(
+    text: &str,
+    width: u32,
+    height: u32,
+    distance: Option<f64>,
+    spacing: Option<Vec<f64>>,
+) -> Result<Vec<String>, JsError> {
     let (calibration, camera) = calibration::calibration_of(text, width, height)?;
-    let doubts = calibration.doubts(&camera);
+    let spacing = spacing.and_then(|pair| <[f64; 2]>::try_from(pair).ok());
+    let stated = distance.zip(spacing);
+    let beside = stated.and_then(|(distance, spacing)| camera.doubt_beside(distance, spacing));
+    let doubts = calibration.doubts(&camera).chain(beside);
     Ok(doubts.map(|doubt| doubt.to_string()).collect())
 }
 
@@ -38,12 +48,20 @@ mod tests {
     #[test]
     fn pixels_a_mm_for_mm_a_pixel_are_told() {
         let told = |pitch: f64| {
-            camera_doubts(&format!("JT_INTCALIB\n1198\n0\n0\n{pitch}\n"), 800, 800).ok()
+            let text = format!("JT_INTCALIB\n1198\n0\n0\n{pitch}\n");
+            camera_doubts(&text, 800, 800, Some(1198.0), Some(vec![pitch; 2])).ok()
         };
         assert_eq!(told(0.4774).unwrap(), Vec::<String>::new());
         let [doubt] = told(2.0945).unwrap().try_into().unwrap();
         assert!(
             doubt.starts_with("the focal length, 572.0 pixels, is 0.71 times"),
+            "{doubt}"
+        );
+        let text = "JT_INTCALIB\n1198\n0\n0\n0.4774\n";
+        let other = camera_doubts(text, 800, 800, Some(1198.0), Some(vec![0.2; 2])).ok();
+        let [doubt] = other.unwrap().try_into().unwrap();
+        assert!(
+            doubt.contains("times that which the frames' file states"),
             "{doubt}"
         );
     }

@@ -18,6 +18,8 @@ const FIELDS: core::ops::RangeInclusive<f64> = 140.0..=450.0;
 const BINNED: usize = 4;
 /// Sides of pixels differ by less.
 const UNEQUAL: f64 = 0.05;
+/// What a set states of its own geometry is nominal: distances and fields are true to some percent.
+const NOMINAL: f64 = 0.05;
 
 /// What is unusual of a camera. A sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,13 @@ pub enum CameraDoubt {
     Unequal {
         /// Horizontal and vertical, pixels.
         focal: [f64; 2],
+    },
+    /// The frames' own file states another focal length.
+    Stated {
+        /// The camera's, pixels.
+        focal: f64,
+        /// The file's: its distance from source to detector in its pixels there.
+        stated: f64,
     },
     /// No X-ray set has its detector at this distance from the focus, mm.
     Distance(f64),
@@ -114,6 +123,17 @@ impl Camera {
         .flatten()
     }
 
+    /// Whether this camera is another than that which the frames' file states: `distance` mm from source to detector, pixels of `spacing` mm
+    /// there, along a row and from row to row. One of both is wrong then, and depths with it, which no outline tells.
+    #[must_use]
+    pub fn doubt_beside(&self, distance: f64, spacing: [f64; 2]) -> Option<CameraDoubt> {
+        let stated = spacing.map(|side| distance / side);
+        let pairs = self.focal().into_iter().zip(stated);
+        let off = |(focal, stated): (f64, f64)| (focal / stated - 1.0).abs();
+        let (focal, stated) = pairs.max_by(|&one, &other| off(one).total_cmp(&off(other)))?;
+        (off((focal, stated)) > NOMINAL).then_some(CameraDoubt::Stated { focal, stated })
+    }
+
     /// The longer focal length in longer sides of the frame.
     fn focal_in_sides(&self) -> f64 {
         let [horizontal, vertical] = self.focal();
@@ -163,6 +183,12 @@ impl fmt::Display for CameraDoubt {
                 f,
                 "the focal lengths, {horizontal:.1} and {vertical:.1} pixels, differ as with pixels that are not square: are they so?"
             ),
+            Self::Stated { focal, stated } => write!(
+                f,
+                "the focal length, {focal:.1} pixels, is {:.2} times that which the frames' file states ({stated:.1}, Distance Source to Detector over Imager \
+                 Pixel Spacing), and depths are as many times too large if that is right: is the calibration of this set-up and of frames of this size?",
+                focal / stated
+            ),
         }
     }
 }
@@ -193,6 +219,34 @@ mod tests {
         ] {
             assert!(told(size, focal, point).is_empty(), "{focal:?}");
         }
+    }
+
+    #[test]
+    fn what_the_frames_state_otherwise_is_told() {
+        let camera = Camera::from_principal_distance(1024, 1024, 1198.0, 0.373, [0.0; 2]);
+        let camera = camera.expect("possible");
+        let beside = |distance, spacing| camera.doubt_beside(distance, spacing);
+        for (distance, spacing) in [
+            (1198.0, [0.373; 2]),
+            (1198.0, [0.36; 2]),
+            (1150.0, [0.373; 2]),
+        ] {
+            assert_eq!(beside(distance, spacing), None, "{distance} {spacing:?}");
+        }
+        for (distance, spacing, words) in [
+            (
+                1198.0,
+                [0.1865; 2],
+                "is 0.50 times that which the frames' file states (6423.6,",
+            ),
+            (1000.0, [0.373; 2], "is 1.20 times"),
+            (1198.0, [0.373, 0.5], "is 1.34 times"),
+        ] {
+            let told = beside(distance, spacing).expect(words).to_string();
+            assert!(told.contains(words), "{told}");
+        }
+        // What is no number is no statement.
+        assert_eq!(beside(f64::NAN, [0.3; 2]), None);
     }
 
     #[test]

@@ -3,7 +3,7 @@ import type { Job, Store } from '../document/store';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
 import type { CameraInput } from '../workers/protocol/camera';
-import type { DecodeProtocol, ModelMesh, ShapeFacts } from '../workers/protocol/decode';
+import type { DecodeProtocol, ModelMesh, ShapeFacts, StatedGeometry } from '../workers/protocol/decode';
 import type { Studio } from '../films/studio';
 
 /** What the jobs of the page share. */
@@ -16,7 +16,7 @@ export interface Services {
   /** Throws the core's sentence for a library that is damaged. */
   readonly checkLibrary: (library: Uint8Array<ArrayBuffer>) => Promise<null>;
   /** What is unusual of a camera, sentences without their full stops. */
-  readonly doubtsOf: (camera: CameraInput) => Promise<readonly string[]>;
+  readonly doubtsOf: (camera: CameraInput & { readonly stated: StatedGeometry | null }) => Promise<readonly string[]>;
 }
 
 let lastJob = 0;

@@ -38,6 +38,7 @@ pub use outputs::check_outputs;
 pub use pose_rows::{PoseRows, read_poses_of};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
+pub use stated_geometry::doubt_beside;
 pub use states::{State, States};
 pub use study::{Component, StatedFilm, Study};
 pub use text::{

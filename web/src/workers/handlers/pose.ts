@@ -43,9 +43,10 @@ serve<PoseProtocol>({
     const told = componentByShape(mesh.vertices, mesh.triangles);
     return { component: COMPONENT_NAMES.find((component) => component === told) ?? null, remarks: modelRemarks(mesh.vertices, mesh.triangles) };
   },
-  cameraDoubts: async ({ text, width, height }) => {
+  cameraDoubts: async ({ text, width, height, stated }) => {
     await ready;
-    return cameraDoubts(text, width, height);
+    const { sourceToDetector = null, detectorSpacing = null } = stated ?? {};
+    return cameraDoubts(text, width, height, sourceToDetector ?? undefined, detectorSpacing ? Float64Array.from(detectorSpacing) : undefined);
   },
   axes: async ({ component, mesh }) => {
     await ready;

@@ -6,7 +6,7 @@ import type { CameraInput } from './camera';
 import type { HandProtocol } from './by_hand';
 import type { JointProtocol } from './joint';
 import type { OnFilmProtocol } from './film';
-import type { ModelMesh, ShapeFacts } from './decode';
+import type { ModelMesh, ShapeFacts, StatedGeometry } from './decode';
 import type { LibraryFacts } from './library';
 import type { Choice, Match, MatchInput, Refined, Surroundings } from './match';
 import type { OneClickProtocol } from './one_click';
@@ -37,7 +37,7 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   /** What a model's surface and shape tell. */
   shape: { input: { mesh: ModelMesh }; output: ShapeFacts; progress: never };
   /** What is unusual of the camera of a calibration: sentences without their full stops. */
-  cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'>; output: readonly string[]; progress: never };
+  cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'> & { readonly stated: StatedGeometry | null }; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */
   axes: { input: { component: ComponentName; mesh: ModelMesh }; output: Pick<Axes, 'directions' | 'told'>; progress: never };
   /** Which knee a femoral component is made for; null where its flange does not tell. */

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fluoropose_decode::{FrameFile, Geometry};
+use fluoropose::camera::Camera;
+use fluoropose_decode::{FrameFile, Geometry, GreyFrame};
 
 use super::listing::files_in;
 use super::text::{name_of, read};
@@ -16,6 +17,17 @@ pub(super) fn stated_by(frames: &Path) -> Option<String> {
     let file = FrameFile::open(read(&first).ok()?, &name_of(&first)).ok()?;
     let stated = words(&file.frame(0).ok()?.geometry)?;
     Some(format!("{} states {stated}", first.display()))
+}
+
+/// Whether the camera is another than that which a frame's file states: a sentence without its full stop.
+pub fn doubt_beside(camera: &Camera, frame: &GreyFrame) -> Option<String> {
+    let Geometry {
+        source_to_detector_mm: distance,
+        detector_spacing_mm: spacing,
+        ..
+    } = frame.geometry;
+    let doubt = camera.doubt_beside(distance?, spacing?)?;
+    Some(format!("camera: {doubt}"))
 }
 
 fn words(geometry: &Geometry) -> Option<String> {

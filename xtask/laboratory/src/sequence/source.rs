@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::seen::Seen;
 use crate::files::{
-    Frames, MaskBuffer, camera_of_frames, files_in, gaps_in, grey, read_mask, reduced,
+    Frames, MaskBuffer, camera_of_frames, doubt_beside, files_in, gaps_in, grey, read_mask, reduced,
 };
 use crate::noise::{DisturbanceOptions, Disturbed};
 
@@ -88,10 +88,16 @@ impl Source {
         }
         let unknown = folders.unknown.map(|path| read_unknown(path, count, size));
         let frames = folders.frames.map(|path| Frames::read(path, count, size));
+        let frames = frames.transpose()?;
+        if let Some(frames) = &frames
+            && let Some(doubt) = doubt_beside(&camera, &*frames.decode(0)?)
+        {
+            eprintln!("{doubt}");
+        }
         Ok(Self {
             camera,
             unknown: unknown.transpose()?,
-            frames: frames.transpose()?,
+            frames,
             masks,
         })
     }

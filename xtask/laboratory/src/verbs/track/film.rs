@@ -28,8 +28,8 @@ use super::sides::Margins;
 use super::squares::chosen_square;
 use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
 use crate::files::{
-    Film, FoundWith, Study, camera_of_frames, check_outputs, read, read_calibration, size_taken,
-    write_poses, write_text,
+    Film, FoundWith, Study, camera_of_frames, check_outputs, doubt_beside, read, read_calibration,
+    size_taken, write_poses, write_text,
 };
 use crate::finding::Stated;
 use crate::options::of_body;
@@ -106,7 +106,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     }
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
-    for doubt in doubts {
+    let beside = doubt_beside(&camera, &*film.frame(0)?);
+    for doubt in doubts.into_iter().chain(beside) {
         (request.listener)(Told::Remark(doubt));
     }
     if let Some(taken) = size_taken(&calibration, film.size()) {

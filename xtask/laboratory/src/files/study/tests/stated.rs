@@ -1,4 +1,5 @@
 use super::*;
+use fluoropose::camera::calibration::Calibration;
 
 /// What the page offers to take of DICOM frames is told here too, as a line to write.
 #[test]
@@ -22,6 +23,19 @@ fn without_a_calibration_what_the_frames_state_is_told() {
         std::fs::write(&path, dicom(Some("0.308"), Some("1000"))).unwrap();
         format!("{:#}", crate::files::read_calibration(&path).unwrap_err())
     };
+    let calibration = Calibration::parse("JT_INTCALIB 1000 0 0 0.2").unwrap();
+    let camera = calibration.camera(2, 2).unwrap();
+    let other = |spacing: &str| {
+        let bytes = dicom(Some(spacing), Some("1000"));
+        let file = fluoropose_decode::FrameFile::open(bytes, "1.dcm").unwrap();
+        crate::files::doubt_beside(&camera, &file.frame(0).unwrap())
+    };
+    let told = other("0.308\\0.308").unwrap();
+    assert!(
+        told.starts_with("camera: the focal length, 5000.0 pixels, is 1.54 times"),
+        "{told}"
+    );
+    assert_eq!(other("0.2\\0.2"), None);
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(
         whole.contains("the key calibration is missing, as in"),
