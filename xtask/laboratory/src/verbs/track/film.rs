@@ -107,8 +107,9 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let both = || format!("{} and {}", study.calibration.display(), frames.display());
     let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
     let beside = doubt_beside(&camera, &*film.frame(0)?);
-    for doubt in doubts.into_iter().chain(beside) {
-        (request.listener)(Told::Remark(doubt));
+    let left = left_over(&request.out, &study);
+    for remark in doubts.into_iter().chain(beside).chain(left) {
+        (request.listener)(Told::Remark(remark));
     }
     if let Some(taken) = size_taken(&calibration, film.size()) {
         (request.listener)(Told::Taken(taken));
@@ -117,8 +118,6 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
     check_written(request, &study)?;
-    let left = left_over(&request.out, &study).map(Told::Remark);
-    left.into_iter().for_each(&*request.listener);
     let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
     let stated = Stated::of(study.film, &attenuations);
     let digest = digest(request, &study, &film, &models, &stated)?;
