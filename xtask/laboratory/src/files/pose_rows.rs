@@ -8,7 +8,7 @@ use fluoropose::pose::Pose;
 use fluoropose_report::cell::plain;
 
 use super::listing::files_in;
-use super::poses::read_poses;
+use super::poses::{doubt_of_lengths, read_poses};
 use super::text::{csv_fields, name_of, read_text};
 
 /// The table of states beside poses.
@@ -26,7 +26,7 @@ impl PoseRows {
     /// For a table that names other files than there are.
     pub fn of(poses: &Path, frames: Option<&Path>) -> Result<Option<Self>> {
         let table = poses.join(TABLE);
-        let Some(frames) = frames.filter(|frames| frames.is_dir() && table.is_file()) else {
+        let Some(frames) = frames.filter(|frames| frames.exists() && table.is_file()) else {
             return Ok(None);
         };
         let files: Vec<String> = files_in(frames)?.iter().map(|path| name_of(path)).collect();
@@ -102,6 +102,9 @@ impl PoseRows {
 /// Names the file and the line; for a table that names other files than there are.
 pub fn read_poses_of(path: &Path, frames: Option<&Path>) -> Result<Vec<Option<Pose>>> {
     let poses = read_poses(path)?;
+    if let Some(doubt) = doubt_of_lengths(&poses) {
+        eprintln!("{}: {doubt}", path.display());
+    }
     let folder = path.parent().unwrap_or(Path::new(""));
     match PoseRows::of(folder, frames)? {
         Some(rows) => {

@@ -1,5 +1,6 @@
 //! Pose files.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
@@ -22,6 +23,22 @@ pub fn read_poses(path: &Path) -> Result<Vec<Option<Pose>>> {
     Ok(poses.into_iter().map(|row| row.map(Pose::from)).collect())
 }
 
+/// Knees are seen from no nearer and from no farther, mm.
+const DEPTHS: RangeInclusive<f64> = 150.0..=10_000.0;
+
+/// Poses that lie where no knee does, as those in other lengths: a sentence without its full stop.
+pub(super) fn doubt_of_lengths(poses: &[Option<Pose>]) -> Option<String> {
+    let depths = poses.iter().flatten().map(|pose| pose.translation[2].abs());
+    let mut depths: Vec<f64> = depths.collect();
+    depths.sort_by(f64::total_cmp);
+    let median = *depths.get(depths.len() / 2)?;
+    (!DEPTHS.contains(&median)).then(|| {
+        format!(
+            "poses lie {median:.1} mm from the focus (median), and no knee is there: lengths of poses are in mm, of which an inch has 25.4 and a centimetre 10"
+        )
+    })
+}
+
 /// Writes poses as `.jts`; the default, six zeros, for a frame without one.
 ///
 /// # Errors
@@ -33,4 +50,27 @@ pub fn write_poses(path: &Path, poses: &[Option<EulerPose>]) -> Result<()> {
         jts::write_row(&mut text, pose.as_ref())?;
     }
     write_text(path, &text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_in_inches_are_told() {
+        let at = |z: f64| {
+            let mut pose = Pose::IDENTITY;
+            pose.translation[2] = z;
+            Some(pose)
+        };
+        let told = |depths: [f64; 3]| doubt_of_lengths(&depths.map(at));
+        let inches = told([-40.2, -42.5, -1080.0]).unwrap();
+        assert!(
+            inches.starts_with("poses lie 42.5 mm from the focus"),
+            "{inches}"
+        );
+        assert_eq!(told([-1020.0, -1080.0, -40.0]), None);
+        assert_eq!(told([1020.0, 1080.0, 990.0]), None);
+        assert_eq!(doubt_of_lengths(&[None]), None);
+    }
 }

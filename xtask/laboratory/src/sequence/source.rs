@@ -80,6 +80,9 @@ impl Source {
         for (path, mask) in &masks {
             check_size(path, mask, size)?;
         }
+        if let Some(doubt) = inverted(&masks) {
+            eprintln!("{}: {doubt}", folders.masks.display());
+        }
         let count = masks.len();
         let folder = || folders.masks.display().to_string();
         let (camera, doubts) = camera_of_frames(calibration, size).with_context(folder)?;
@@ -215,6 +218,21 @@ impl Sequence<'_> {
     }
 }
 
+/// Masks that cover more than half of their frames, as those do that are black inside: a sentence without its full stop.
+fn inverted(masks: &[(PathBuf, MaskBuffer)]) -> Option<String> {
+    let is_most = |(_, mask): &&(PathBuf, MaskBuffer)| {
+        let mask = mask.mask();
+        2 * mask.area() > (mask.width() * mask.height()) as u64
+    };
+    let count = masks.iter().filter(is_most).count();
+    (2 * count > masks.len()).then(|| {
+        format!(
+            "{count} of {} masks cover more than half of their frame, and no implant does: what is inside is bright in a mask; turn black and white around",
+            masks.len()
+        )
+    })
+}
+
 fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec<MaskBuffer>> {
     let files = files_in(folder)?;
     if files.len() != count {
@@ -315,5 +333,26 @@ mod tests {
         for folder in [masks, unknown, few, small] {
             std::fs::remove_dir_all(folder).unwrap();
         }
+    }
+
+    #[test]
+    fn masks_that_are_black_inside_are_told() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-black-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("1.png");
+        let read = |inside: u8| {
+            let mut picture = vec![255 - inside; 64];
+            picture[..8].fill(inside);
+            write_grey(&path, (8, 8), &picture).unwrap();
+            inverted(&[(path.clone(), read_mask(&path).unwrap())])
+        };
+        let (right, black) = (read(255), read(0));
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(right, None);
+        assert!(
+            black
+                .unwrap()
+                .starts_with("1 of 1 masks cover more than half")
+        );
     }
 }
