@@ -11,6 +11,9 @@ pub(super) fn why_absent(path: &Path) -> String {
     if name.contains(['*', '?']) {
         return ": patterns are not read, name the folder or one file".to_owned();
     }
+    if of_elsewhere(path) {
+        return ": that is a path of another system or of a person's own folder, write it from the study's folder".to_owned();
+    }
     let beside = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let nearest = beside
         .map(|entry| name_of(&entry.path()))
@@ -29,6 +32,14 @@ pub(super) fn why_absent(path: &Path) -> String {
         ),
         false => format!(": was {other:?} meant?"),
     }
+}
+
+/// Whether a drive's letter or a tilde stands in it, which lead nowhere here.
+fn of_elsewhere(path: &Path) -> bool {
+    let drive = |part: &str| part.len() == 2 && part.ends_with(':');
+    path.iter()
+        .filter_map(|part| part.to_str())
+        .any(|part| drive(part) || part == "~")
 }
 
 /// How many letters make one name of another, where few do.

@@ -142,6 +142,11 @@ impl Checked {
             if own.starts_with("[component]") {
                 bail!("line {line}: {}", two_brackets("component"));
             }
+            if own.contains(TYPOGRAPHIC) {
+                bail!(
+                    "line {line}: text stands between straight quotes, \", and not typographic ones"
+                );
+            }
             if let Some((key, text)) = without_quotes(own) {
                 bail!("line {line}: {key}: text needs quotes, as in {key} = {text:?}");
             }
@@ -333,6 +338,11 @@ impl Kind {
         }
     }
 }
+
+/// What editors of letters make of quotes.
+const TYPOGRAPHIC: [char; 6] = [
+    '\u{201c}', '\u{201d}', '\u{201e}', '\u{2018}', '\u{2019}', '\u{ab}',
+];
 
 /// What becomes of a backslash, as those have it who copy a path.
 const ESCAPES: &str = " (between \"\" a backslash begins another character: write / in its place)";

@@ -275,6 +275,10 @@ const FAULTY: &[(&str, [&str; 2])] = &[
         "STUDY;FEMUR;masks.hand = masks/femur\n",
         ["line 6: masks.hand: text needs quotes", "\"masks/femur\""],
     ),
+    (
+        "STUDY;frames = \u{201c}frames\u{201d}\nFEMUR;",
+        ["line 3: text stands between straight quotes", "typographic"],
+    ),
     ("STUDY;frames_per_s = 15,0\nFEMUR;", ["line 3: ", "newline"]),
 ];
 
@@ -385,6 +389,8 @@ fn what_may_be_meant_by_a_file_that_is_not_there_is_told() {
         told("x/frames", "f.STL"),
         told("Frames/*.png", "f.STL"),
         told("films", "f.STL"),
+        told("C:\\films\\one", "f.STL"),
+        told("~/films", "f.STL"),
     ];
     std::fs::remove_dir_all(&folder).unwrap();
     let ends = [
@@ -394,6 +400,8 @@ fn what_may_be_meant_by_a_file_that_is_not_there_is_told() {
         "x is not there",
         ": patterns are not read, name the folder or one file",
         "films",
+        "write it from the study's folder",
+        "write it from the study's folder",
     ];
     for (told, end) in cases.iter().zip(ends) {
         assert!(told.ends_with(end), "{told}");
