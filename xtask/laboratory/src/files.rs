@@ -26,7 +26,7 @@ pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use fluoropose_decode::name_order;
 pub use found_with::FoundWith;
-pub use frames::{Frames, grey, reduced, stated_frames_per_s};
+pub use frames::{Frames, grey, other_count, reduced, stated_frames_per_s};
 pub use listing::{files_in, gaps_in, is_of_system};
 pub use mask::read_mask;
 pub use model::{

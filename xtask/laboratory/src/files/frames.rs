@@ -124,6 +124,21 @@ pub fn stated_frames_per_s(folder: &Path) -> Result<Option<f64>> {
     Ok(file.frames_per_s())
 }
 
+/// Whether a folder, or a file, holds another number of frames than `count`, and then which; nothing where it cannot be told, as where it is not there.
+pub fn other_count(frames: &Path, count: usize) -> Option<usize> {
+    let files = files_in(frames).ok()?;
+    // A frame each, most often: none has to be read for that.
+    if files.len() == count {
+        return None;
+    }
+    let of_file = |path: &PathBuf| {
+        let file = FrameFile::open(read(path).ok()?, &name_of(path)).ok()?;
+        Some(file.count())
+    };
+    let found = files.iter().map(of_file).sum::<Option<usize>>()?;
+    (found != count).then_some(found)
+}
+
 /// A decoded frame as the core looks at it: what is behind a shutter is beyond the picture.
 ///
 /// # Errors

@@ -39,7 +39,7 @@ pub struct Args {
     /// Folder of library files from `cargo xtask library`, all of one canonical size and area
     #[arg(long, value_name = "DIR")]
     libraries: PathBuf,
-    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0, OpenCV, ROS, MATLAB)
     #[arg(long)]
     calibration: PathBuf,
     /// Folder of mask images

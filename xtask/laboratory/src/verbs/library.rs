@@ -40,7 +40,7 @@ pub struct Args {
     /// The implant's model: STL (binary or ASCII), OBJ or PLY, in mm
     #[arg(long)]
     model: PathBuf,
-    /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0, OpenCV, ROS, MATLAB)
     #[arg(long)]
     calibration: PathBuf,
     /// Width and height of the frames, pixels; only recorded, but poses are tried in them with --for firmware. 1024,1024 if not given, but a camera matrix has its own

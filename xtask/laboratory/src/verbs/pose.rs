@@ -54,7 +54,7 @@ pub struct Args {
     /// The model that the library was made from; checked by its digest
     #[arg(long)]
     model: PathBuf,
-    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0, OpenCV, ROS, MATLAB)
     #[arg(long)]
     calibration: PathBuf,
     /// Folder of mask images

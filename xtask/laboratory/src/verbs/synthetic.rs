@@ -86,7 +86,7 @@ pub struct Args {
     /// The implant's model: STL (binary or ASCII), OBJ or PLY, in mm
     #[arg(long, required_unless_present_any = ["films", "activity", "knees"])]
     model: Option<PathBuf>,
-    /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0, OpenCV, ROS, MATLAB)
     #[arg(long, required_unless_present_any = ["films", "activity", "knees"])]
     calibration: Option<PathBuf>,
     /// Width and height of the frames, pixels; 1024,1024 if not given, but a camera matrix has its own

@@ -11,8 +11,8 @@ use fluoropose_report::cell::plain;
 use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
-    Component, FoundWith, PoseRows, Role, State, States, Study, csv_fields, name_of, read,
-    read_calibration, read_poses, read_poses_of, read_text, sha256,
+    Component, FoundWith, PoseRows, Role, State, States, Study, csv_fields, name_of, other_count,
+    read, read_calibration, read_poses, read_poses_of, read_text, sha256,
 };
 
 /// A component with its poses.
@@ -107,6 +107,7 @@ impl Sources {
                 .filter_map(|&row| rows.frame_of(row))
                 .collect();
         }
+        check_count(study, a)?;
         let film = film_of(poses, &mut inputs)?;
         let bodies = [&femur, &tibia].map(|body| (body.name.as_str(), body.model.as_model()));
         let with = FoundWith::of(&read_calibration(&study.calibration)?, bodies.into_iter());
@@ -287,6 +288,18 @@ impl Body {
             uncertain,
         })
     }
+}
+
+/// Refuses poses of another number than there are frames, where these are at hand: nothing tells which row is whose then.
+fn check_count(study: &Study, rows: usize) -> Result<()> {
+    let frames = study.frames.as_deref();
+    if let Some((folder, count)) = frames.and_then(|at| Some((at, other_count(at, rows)?))) {
+        bail!(
+            "{}: there are {count} frames and {rows} poses: both must be of the same film, a row for each frame, NaN where there is no pose",
+            folder.display()
+        );
+    }
+    Ok(())
 }
 
 fn pose_file(component: &Component, poses: Option<&Path>) -> Option<PathBuf> {

@@ -219,13 +219,14 @@ fn check_overlay(folder: &Path, args: Args) {
     assert_eq!((whole.width, whole.height), (480 + 268, 480));
     // The frame that has no femur has no outline of it.
     assert_ne!(whole.pixels, gap.pixels);
-    std::fs::remove_file(frames.join("03.png")).unwrap();
-    assert!(
-        run(again())
-            .unwrap_err()
-            .to_string()
-            .contains("23 frames and 24 poses")
-    );
+    let (third, aside) = (frames.join("03.png"), folder.join("03.png"));
+    std::fs::rename(&third, &aside).unwrap();
+    // Without the overlay too: rows would be other frames'.
+    for overlay in [true, false] {
+        let told = run(Args { overlay, ..again() }).unwrap_err().to_string();
+        assert!(told.contains("23 frames and 24 poses"), "{told}");
+    }
+    std::fs::rename(aside, third).unwrap();
 }
 
 /// A tray upside down is told, a joint is not, nor anything of a study without one.
