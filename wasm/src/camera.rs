@@ -1,6 +1,8 @@
 //! What is unusual of a calibration, in the core's words.
 
+use fluoropose::camera::calibration::Calibration;
 use fluoropose_page::calibration;
+use fluoropose_page::error::sentence;
 use wasm_bindgen::prelude::*;
 
 /// What is unusual of the camera of a calibration text for frames of `width` x `height` pixels: sentences without their full stops. Where their
@@ -22,6 +24,16 @@ pub fn camera_doubts(
     let beside = stated.and_then(|(distance, spacing)| camera.doubt_beside(distance, spacing));
     let doubts = calibration.doubts(&camera).chain(beside);
     Ok(doubts.map(|doubt| doubt.to_string()).collect())
+}
+
+/// A calibration text of any kind as `JT_INTCALIB` or MayaCam 2.0, which all else here reads.
+///
+/// # Errors
+/// The core's sentence about the line or value at fault.
+#[wasm_bindgen(js_name = calibrationText)]
+pub fn calibration_text(text: &str) -> Result<String, JsError> {
+    let calibration = Calibration::parse(text).map_err(sentence)?;
+    Ok(calibration.to_string())
 }
 
 /// Distances in mm of the libraries that a part is looked for with in frames of `width` x `height` pixels, as the core's

@@ -30,7 +30,7 @@ mod working_model;
 
 pub use anatomy::{ShapeAxes, flange_side, model_remarks, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
-pub use camera::{camera_doubts, search_distances};
+pub use camera::{calibration_text, camera_doubts, search_distances};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use film::{FilmFacts, FilmStudy, stated_film, stated_film_words};

@@ -63,6 +63,7 @@ async function start(root: HTMLElement): Promise<void> {
     decoder: decodeWorker(),
     shapeOf: (mesh) => matcher.call('shape', { mesh }).catch(() => ({ component: null, remarks: [] })),
     checkLibrary: (library) => matcher.call('check', { library }),
+    ownCalibration: (text) => matcher.call('calibrationText', { text }),
     doubtsOf: (camera) => matcher.call('cameraDoubts', camera).catch(() => []),
   };
   // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.

@@ -56,7 +56,18 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError`] says which line or value is wrong.
     pub fn parse(text: &str) -> Result<Self, CalibrationError> {
-        let text = text.trim_start_matches('\u{feff}');
+        match Self::parse_own(text)? {
+            Some(own) => Ok(own),
+            None => Ok(Self::of_matrix(exported::read(without_mark(text))?, None)),
+        }
+    }
+
+    /// Reads the two kinds that [`Display`](fmt::Display) writes, `JT_INTCALIB` and MayaCam 2.0; `None` where a text is of another.
+    ///
+    /// # Errors
+    /// Those of [`Self::parse`].
+    pub fn parse_own(text: &str) -> Result<Option<Self>, CalibrationError> {
+        let text = without_mark(text);
         let mut lines = lines_of(text);
         let (line, first) = lines.next().ok_or(CalibrationError::UnknownKind)?;
         if first.starts_with(OF_TWO) {
@@ -67,23 +78,27 @@ impl Calibration {
             .filter_map(|heading| first.strip_prefix(heading))
             .next()
         {
-            return Self::of_principal(principal::read((line, rest), lines)?);
+            return Self::of_principal(principal::read((line, rest), lines)?).map(Some);
         }
-        let (read, laboratory) = match mayacam::is_heading(first, "image size") {
-            true => mayacam::read(lines)?,
-            false => (exported::read(text)?, None),
-        };
+        if !mayacam::is_heading(first, "image size") {
+            return Ok(None);
+        }
+        let (read, laboratory) = mayacam::read(lines)?;
+        Ok(Some(Self::of_matrix(read, laboratory)))
+    }
+
+    fn of_matrix(read: Intrinsics, laboratory: Option<Pose>) -> Self {
         let Intrinsics {
             size,
             focal,
             centre,
         } = read;
-        Ok(Self::CameraMatrix {
+        Self::CameraMatrix {
             size,
             focal,
             centre,
             laboratory,
-        })
+        }
     }
 
     fn of_principal([distance, x, y, pitch]: [f64; 4]) -> Result<Self, CalibrationError> {
@@ -167,6 +182,10 @@ impl Calibration {
             Self::CameraMatrix { .. } => None,
         }
     }
+}
+
+fn without_mark(text: &str) -> &str {
+    text.trim_start_matches('\u{feff}')
 }
 
 /// Writes the file back: every number comes out as it went in.

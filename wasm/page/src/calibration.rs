@@ -1,7 +1,7 @@
 //! Calibration texts read and written for the page.
 
 use fluoropose::camera::Camera;
-use fluoropose::camera::calibration::Calibration;
+use fluoropose::camera::calibration::{Calibration, CalibrationError};
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;
@@ -17,11 +17,17 @@ pub fn calibration_of(
     width: u32,
     height: u32,
 ) -> Result<(Calibration, Camera), JsError> {
-    let calibration = Calibration::parse(text).map_err(sentence)?;
+    let calibration = own(text)?;
     let camera = calibration
         .camera(width as usize, height as usize)
         .map_err(sentence)?;
     Ok((calibration, camera))
+}
+
+/// A calibration in a form of the core's own: what else is read of others' is brought into one when it is opened, by who has the whole reader.
+fn own(text: &str) -> Result<Calibration, JsError> {
+    let own = Calibration::parse_own(text).map_err(sentence)?;
+    own.ok_or_else(|| sentence(CalibrationError::UnknownKind))
 }
 
 /// What a calibration text says, for a chip and a form.
@@ -30,13 +36,20 @@ pub struct CalibrationText(Calibration);
 
 #[wasm_bindgen]
 impl CalibrationText {
-    /// Reads `JT_INTCALIB` or a camera matrix, in any form that the core reads.
+    /// Reads `JT_INTCALIB` or MayaCam 2.0.
     ///
     /// # Errors
     /// The core's sentence about the line or value at fault.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str) -> Result<CalibrationText, JsError> {
-        Calibration::parse(text).map(Self).map_err(sentence)
+        own(text).map(Self)
+    }
+
+    /// Whether a text is in one of those forms, right or wrong, and not in one of others.
+    #[wasm_bindgen(js_name = isOwn)]
+    #[must_use]
+    pub fn is_own(text: &str) -> bool {
+        !matches!(Calibration::parse_own(text), Ok(None))
     }
 
     /// Principal distance, principal point x and y (mm from the frame's centre) and pixel pitch, all mm; nothing for a

@@ -3,7 +3,7 @@ import { decodeModel } from './decode.js';
 import { filmNumbers } from './film.js';
 import { withImage } from './frame_image.js';
 import { buildLibrary } from './library.js';
-import init, { cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
+import init, { calibrationText, cameraDoubts, HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
 import type { Beside, Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Shaped, Size, Verdict } from './types.js';
 
@@ -20,10 +20,11 @@ export async function openImplant(options: ImplantOptions): Promise<Implant> {
   checkOptions(options);
   const address = new URL('./pkg/core/fluoropose_wasm_bg.wasm', import.meta.url);
   await (ready ??= init({ module_or_path: read(address) }));
-  const { model, calibration, frame, signal } = options;
+  const { model, frame, signal } = options;
+  const calibration = calibrationText(options.calibration);
   signal?.throwIfAborted();
   const { mesh, notes } = isBytes(model) ? await decodeModel(new Uint8Array(model)) : { mesh: model, notes: [] };
-  const library = options.library ? asBytes(options.library) : await buildLibrary(mesh, options);
+  const library = options.library ? asBytes(options.library) : await buildLibrary(mesh, { ...options, calibration });
   return new Implant(mesh, library, calibration, frame, notes);
 }
 

@@ -273,9 +273,10 @@ async function openSessionAs(services: Services, work: WorkOnView, file: Incomin
   return said;
 }
 
-async function openCalibration({ store, studio }: Services, work: WorkOnView, file: Incoming): Promise<string> {
+async function openCalibration({ store, studio, ownCalibration }: Services, work: WorkOnView, file: Incoming): Promise<string> {
   const { name } = file;
-  const text = await textOf(file);
+  const given = await textOf(file);
+  const text = studio.isCalibrationOfOthers(given) ? await ownCalibration(given) : given;
   mustBeHere(work, file);
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);

@@ -304,6 +304,11 @@ export class Studio {
 
   // --- Texts --------------------------------------------------------------------------------------------------
 
+  /** Whether a calibration is in a form of others, which the worker of poses brings into one that is read here. */
+  isCalibrationOfOthers(text: string): boolean {
+    return !CalibrationText.isOwn(text);
+  }
+
   /** Throws the core's sentence for a text that is no calibration or does not fit the frames. */
   calibrationFacts(text: string, frame: Size | null): CalibrationFacts {
     const calibration = new CalibrationText(text);

@@ -15,6 +15,8 @@ export interface Services {
   readonly shapeOf: (mesh: ModelMesh) => Promise<ShapeFacts>;
   /** Throws the core's sentence for a library that is damaged. */
   readonly checkLibrary: (library: Uint8Array<ArrayBuffer>) => Promise<null>;
+  /** A calibration in a form of others in one that is read here. Throws the core's sentence about the line or value at fault. */
+  readonly ownCalibration: (text: string) => Promise<string>;
   /** What is unusual of a camera, sentences without their full stops. */
   readonly doubtsOf: (camera: CameraInput & { readonly stated: StatedGeometry | null }) => Promise<readonly string[]>;
 }

@@ -31,6 +31,7 @@ export function pageOfFiles(studio: object = {}) {
   };
   const stands = {
     calibrationFacts: () => ({ principal: null, camera: null }),
+    isCalibrationOfOthers: (text: string) => text.startsWith('%YAML'),
     addFrame: () => undefined,
     knowFrame: () => undefined,
     statedGeometry: () => null,
@@ -40,7 +41,7 @@ export function pageOfFiles(studio: object = {}) {
     shapeOf: () => null,
     ...studio,
   };
-  const others = { decoder: { call }, shapeOf: async () => ({ component: null, remarks: [] }), checkLibrary: async () => null, doubtsOf: async () => [] };
+  const others = { decoder: { call }, shapeOf: async () => ({ component: null, remarks: [] }), checkLibrary: async () => null, ownCalibration: async () => 'JT_INTCALIB\n', doubtsOf: async () => [] };
   const services = { store, assets, studio: stands, ...others } as unknown as Services;
   const open = (...files: Incoming[]) => openFiles(services, files);
   /** Holds the frames of a file back; returns what lets them go on. */

@@ -105,6 +105,11 @@ describe('several studies', () => {
   });
 });
 
+it('a calibration in a form of others is kept as the worker reads it', async () => {
+  const { doc } = await opened(at('/k/calibration.txt', '%YAML:1.0'), at('/k/f1.png'));
+  expect(doc.calibration).toEqual({ name: 'calibration.txt', text: 'JT_INTCALIB\n' });
+});
+
 describe('several files for one place, where no study tells', () => {
   it('are not taken, and a person opens the one that is meant', async () => {
     const { store, doc, said, open } = await opened(at('/a.txt'), at('/b.txt'), at('/femur_1.stl'), at('/femur_2.stl'), at('/tibia.stl'), at('/f1.png'));

@@ -12,9 +12,9 @@ pub(super) fn lines_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Notes begin as in most programs' files.
 fn without_note(line: &str) -> &str {
-    let marks = ["#", "%", "//"].into_iter();
-    let end = marks.filter_map(|mark| line.find(mark)).min();
-    end.map_or(line, |end| &line[..end])
+    let line = line.split(['#', '%']).next().unwrap_or(line);
+    let slashes = line.as_bytes().windows(2).position(|pair| pair == b"//");
+    slashes.and_then(|end| line.get(..end)).unwrap_or(line)
 }
 
 pub(super) fn numbers<const N: usize>(

@@ -1,4 +1,4 @@
-import { cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, modelRemarks, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { calibrationText, cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, modelRemarks, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
@@ -42,6 +42,10 @@ serve<PoseProtocol>({
     await ready;
     const told = componentByShape(mesh.vertices, mesh.triangles);
     return { component: COMPONENT_NAMES.find((component) => component === told) ?? null, remarks: modelRemarks(mesh.vertices, mesh.triangles) };
+  },
+  calibrationText: async ({ text }) => {
+    await ready;
+    return calibrationText(text);
   },
   cameraDoubts: async ({ text, width, height, stated }) => {
     await ready;

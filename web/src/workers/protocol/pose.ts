@@ -36,6 +36,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   library: { input: { component: ComponentName }; output: Uint8Array<ArrayBuffer>; progress: never };
   /** What a model's surface and shape tell. */
   shape: { input: { mesh: ModelMesh }; output: ShapeFacts; progress: never };
+  /** A calibration of any kind in a form that the page reads; throws the core's sentence about it. */
+  calibrationText: { input: { text: string }; output: string; progress: never };
   /** What is unusual of the camera of a calibration: sentences without their full stops. */
   cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'> & { readonly stated: StatedGeometry | null }; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */

@@ -44,8 +44,11 @@ fn one_camera_is_the_same_whoever_wrote_it() {
     let same = "image size\n1024,768\ncamera matrix\n3200,0,510.5\n0,3180,380\n0,0,1\n";
     let same = Calibration::parse(same);
     assert!(same.is_ok());
+    let written = same.expect("valid").to_string();
+    assert_eq!(Calibration::parse_own(&written), same.map(Some));
     for text in OTHERS.into_iter().chain([OPENCV, XML]) {
         assert_eq!(Calibration::parse(text), same, "{text}");
+        assert_eq!(Calibration::parse_own(text), Ok(None), "{text}");
         let with_mark = format!("\u{feff}{}", text.replace('\n', "\r\n"));
         assert_eq!(Calibration::parse(&with_mark), same, "{text}");
     }
