@@ -13,7 +13,7 @@ use core::fmt;
 
 use heapless::Vec;
 
-pub use error::{CalibrationError, JT_INTCALIB};
+pub use error::{CalibrationError, JT_INTCALIB, Unread};
 
 use crate::camera::Camera;
 use crate::pose::Pose;

@@ -94,7 +94,7 @@ export async function write(app: App, exporting: Exporting, film: FilmType | nul
   const name = fileName(doc, exporting, ui.frameIndex, film);
   try {
     const made = await makeFile(app, exporting, film);
-    if (!made) return store.say('info', texts.exchange.noneClosed);
+    if (!made) return store.say('info', later.exchange.noneClosed);
     download([made.part], name, made.type);
     store.say('info', savedWords(doc, exporting, name));
   } catch (error) {
@@ -140,9 +140,9 @@ function savedWords(doc: Doc, exporting: Exporting, name: string): string {
   }
   if (kind !== 'outlines') return later.exporting.saved(name);
   const outlines = outlinesOf(doc);
-  if (forms.outlines === 'outlines') return texts.exchange.saved(outlines.length, 0, 0);
+  if (forms.outlines === 'outlines') return later.exchange.saved(outlines.length, 0, 0);
   const closed = outlines.filter((outline) => outline.closed);
-  return texts.exchange.saved(closed.length, outlines.length - closed.length, closed.filter(({ unknownSides }) => unknownSides.length > 0).length);
+  return later.exchange.saved(closed.length, outlines.length - closed.length, closed.filter(({ unknownSides }) => unknownSides.length > 0).length);
 }
 
 export function outlinesOf(doc: Doc): Outline[] {

@@ -1,7 +1,7 @@
 import { cellOf, type Doc } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
 import { fileStem } from '../terms/file_name';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 import { asJob, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
 import type { MaskToWrite } from '../workers/protocol/masks';
@@ -12,7 +12,7 @@ export async function exportMasks({ store }: Services): Promise<Uint8Array<Array
   if (masks.length === 0) return null;
   const abort = new AbortController();
   const worker = masksWorker();
-  const job = { title: texts.exchange.writing, unit: texts.exchange.masks, total: masks.length, cancel: () => abort.abort() };
+  const job = { title: later.exchange.writing, unit: later.exchange.masks, total: masks.length, cancel: () => abort.abort() };
   try {
     return await asJob(store, job, (report) =>
       worker.call('write', { masks }, { signal: abort.signal, onProgress: ({ done, total }) => report(done, total) }),

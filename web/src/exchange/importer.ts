@@ -4,7 +4,7 @@ import { componentNamed, likelyMatch, type ProposedItem } from '../document/prop
 import type { Outline } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import { framePoint } from '../geometry/points';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 import { Aborted } from '../workers/bridge';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { byName } from './name_order';
@@ -45,7 +45,7 @@ export async function propose(services: Services, files: readonly OutlineFile[],
   items.push(...(await readMasks(services, masks, remarks)));
   if (items.length === 0) {
     for (const remark of remarks) store.say('error', remark);
-    if (remarks.length === 0) store.say('error', texts.exchange.nothing);
+    if (remarks.length === 0) store.say('error', later.exchange.nothing);
     return;
   }
   const match = likelyMatch(store.doc, items);
@@ -83,7 +83,7 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
   const abort = new AbortController();
   const worker = masksWorker();
   const pages: { file: OutlineFile; name: string; page: MaskPage }[] = [];
-  const job = { title: texts.exchange.reading, unit: texts.exchange.files, total: files.length, cancel: () => abort.abort() };
+  const job = { title: later.exchange.reading, unit: later.exchange.files, total: files.length, cancel: () => abort.abort() };
   try {
     await asJob(services.store, job, async (report) => {
       for (const [index, file] of files.entries()) {
@@ -110,10 +110,10 @@ function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPa
   const several = pages.some(({ page }) => page.labels.length > 1);
   const places = new Map<string, number>();
   return pages.flatMap(({ file, name, page }) => {
-    if (page.labels.length === 0) remarks.push(texts.exchange.emptyMask(name));
+    if (page.labels.length === 0) remarks.push(later.exchange.emptyMask(name));
     const folder = subjectOf(pathOf(file));
     return page.labels.map((label) => {
-      const subject = several ? texts.exchange.value(label.value) : folder;
+      const subject = several ? later.exchange.value(label.value) : folder;
       const order = places.get(subject) ?? 0;
       places.set(subject, order + 1);
       const { width, height } = page;
@@ -142,7 +142,7 @@ function subjectsByFolder(paths: readonly string[]): (path: string) => string {
   }
   return (path) => {
     const component = componentNamed(path);
-    if (!component) return texts.exchange.unnamed;
+    if (!component) return later.exchange.unnamed;
     const folder = folderOf(path);
     // A folder's name that says nothing of the component would be taken for none.
     const tells = componentNamed(folder) === component && (folders.get(component)?.size ?? 0) > 1;
@@ -151,7 +151,7 @@ function subjectsByFolder(paths: readonly string[]): (path: string) => string {
 }
 
 function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
-  const { exchange } = texts;
+  const { exchange } = later;
   const fraction = (100 * differing) / Math.max(1, area);
   return [
     specks > 0 ? exchange.specks(specks) : null,

@@ -4,6 +4,7 @@ import { isSilhouette } from '../document/laid_by';
 import type { Doc } from '../document/types';
 import { isReady } from '../results/steps';
 import type { ToolName } from '../terms/tool';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { bringFiles } from './bring_files';
 import { type Incoming, textOf } from './incoming';
@@ -16,13 +17,13 @@ export async function openSession(services: Services, file: Incoming, remarks: s
   await takeFiles(services, session, remarks);
   const missing = await bringFiles(services, session.doc, remarks);
   const { store } = services;
-  store.perform({ label: texts.digests.openLabel, apply: () => session.doc });
+  store.perform({ label: later.digests.openLabel, apply: () => session.doc });
   store.markSaved(store.doc);
   const { frameIndex, component, overlayOpacity } = session.view;
   store.show({ tool: toolFor(session.doc, store.ui.tool), component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
   store.goTo(frameIndex);
-  if (session.audit) remarks.push(...(await auditTroubles(session.doc, session.audit)).map(texts.digests.trouble));
-  if (missing.length > 0) remarks.push(texts.digests.missing(texts.listed(missing), missing.length));
+  if (session.audit) remarks.push(...(await auditTroubles(session.doc, session.audit)).map(later.digests.trouble));
+  if (missing.length > 0) remarks.push(later.digests.missing(texts.listed(missing), missing.length));
   return `the session ${file.name}`;
 }
 
@@ -37,7 +38,7 @@ async function takeFiles({ assets }: Services, session: Session, remarks: string
   for (const { name, sha256, bytes } of session.files) {
     if (!bytes) continue;
     const asset = await assets.add(name, new Blob([bytes]));
-    if (asset.sha256 !== sha256) remarks.push(texts.digests.damaged(name, short(asset.sha256), short(sha256)));
+    if (asset.sha256 !== sha256) remarks.push(later.digests.damaged(name, short(asset.sha256), short(sha256)));
   }
 }
 
@@ -47,7 +48,7 @@ export async function mismatchOf({ store, assets }: Services, { name, blob }: In
   if (awaited.length === 0) return null;
   const { sha256 } = await assets.add(name, blob);
   const found = awaited.every((reference) => reference.sha256 !== sha256);
-  return found ? texts.digests.another(name, short(sha256), short(awaited[0]!.sha256)) : null;
+  return found ? later.digests.another(name, short(sha256), short(awaited[0]!.sha256)) : null;
 }
 
 function short(sha256: string): string {

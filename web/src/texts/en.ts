@@ -290,56 +290,7 @@ export const en = {
     saidUnflagged: (frame: number, component: string) => `Frame ${frame}, ${component}: the flag is gone.`,
   },
 
-  /** Outlines and masks from files and into files. */
-  exchange: {
-    title: 'Import outlines',
-    nothing: 'There is no outline in what was opened.',
-    reading: 'Reading masks',
-    writing: 'Writing masks',
-    files: 'files',
-    masks: 'masks',
-    emptyMask: (name: string) => `${name} is empty: no pixel of it is set`,
-    unnamed: 'masks without a name',
-    value: (value: number) => `grey value ${value}`,
-    specks: (pixels: number) => `specks of ${pixels} px left out`,
-    holes: (pixels: number) => `holes of ${pixels} px filled`,
-    simplifiedTo: 'simplified:',
-    differing: (percent: string) => `simplified: ${percent} % of the pixels differ`,
-    matching: 'Frames are found by',
-    match: { name: 'name', order: 'order' },
-    exact: 'Exactly along the pixels (many points)',
-    remarks: 'What could not be read',
-    apply: (count: number) => (count === 1 ? 'Import 1 outline' : `Import ${count} outlines`),
-    waiting: 'Nothing is imported yet.',
-    goOn: 'Import…',
-    applied: (count: number) => (count === 1 ? '1 outline imported; Ctrl+Z takes it back.' : `${count} outlines imported; Ctrl+Z takes them back.`),
-    asFrames: 'Open as frames instead',
-    leftOut: (count: number) => (count === 0 ? '' : `${count} left out`),
-    subjects: 'What the outlines are of',
-    subject: (name: string) => name,
-    severalSets: (component: string, names: string) => `There are several outlines of the ${component}: ${names}. One of them is used; choose which.`,
-    subjectIs: (name: string) => `Component of ${name}`,
-    leaveOut: 'leave out',
-    table: 'Where each outline goes',
-    columns: { from: 'From', to: 'To', notes: 'Notes' },
-    to: (number: number, name: string, component: string) => `frame ${number} (${name}), ${component}`,
-    nowhere: (reason: string) => `left out: ${reason}`,
-    replaces: 'replaces the outline there',
-    saved: (count: number, drafts: number, unknown: number) =>
-      `${count === 1 ? '1 outline' : `${count} outlines`} saved.${drafts > 0 ? ` ${drafts} not closed: left out.` : ''}${unknown > 0 ? ` ${unknown} with unknown sides: this format cannot say so.` : ''}`,
-    noneClosed: 'No outline is closed yet: there is nothing to save in this form.',
-  },
-
-  /** What does not match the SHA-256 by which a session names it. */
-  digests: {
-    openLabel: 'open a session',
-    trouble: (what: string) => `Not as it was saved: ${what}.`,
-    damaged: (name: string, found: string, wanted: string) =>
-      `${name}: the copy in the session was changed (SHA-256 ${found} instead of ${wanted}); drop the original on the page`,
-    missing: (names: string, count: number) => `The session only names ${names}: drop ${count === 1 ? 'it' : 'them'} on the page`,
-    another: (name: string, found: string, wanted: string) =>
-      `${name} is another file than the one that the session names (SHA-256 ${found} instead of ${wanted}): opened all the same, Ctrl+Z takes it back`,
-  },
+  exchange: { title: 'Import outlines' },
 };
 
 function counted(points: number): string {

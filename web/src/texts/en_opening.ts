@@ -22,6 +22,4 @@ export const opening = {
   take: 'Order by number',
   taken: (first: string) => `The frames stand by the numbers in their files; ${first} is first. The commands go by names: rename the files for them.`,
   step: 'order the frames by number',
-  onFrames: "Poses go on to the frames' edges",
-  onFramesTitle: 'Masks lie a pixel or two off the edges, which is centimetres of depth: poses begin at them, and the frame decides once its film is known',
 };

@@ -1,5 +1,7 @@
 //! Why a text is not a calibration, in words that say what to do.
 
+use core::fmt;
+
 use thiserror::Error;
 
 use crate::camera::CameraError;
@@ -70,57 +72,15 @@ pub enum CalibrationError {
         /// Line, from 1.
         line: usize,
     },
-    /// A MayaCam 1.0 file.
-    #[error(
-        "the calibration is five lines of three numbers, as a MayaCam 1.0 file has them: it is not read; export the camera as MayaCam 2.0, which begins with the line 'image size'"
-    )]
-    MayaCam1,
-    /// Nine numbers and nothing else.
-    #[error(
-        "the calibration is the nine numbers of a camera matrix alone, and nothing says of frames of which size: write above them the line 'image size', a line with width,height in pixels of the frames that were calibrated, and the line 'camera matrix'; the nine numbers by rows, fx,0,cx first, and cx and cy counted from 0 at the first pixel's centre"
-    )]
-    NineNumbers,
-    /// A camera matrix without the size of its frames.
-    #[error(
-        "the calibration has a camera matrix but not the size of the frames that it is of: write image_width and image_height into it, in pixels, as it has its other values"
-    )]
-    NoSize,
-    /// The size of the frames is stated, but no whole number of pixels, or several times.
-    #[error(
-        "the calibration's width and height of frames are not one whole number of pixels each: leave those of the frames that were calibrated"
-    )]
-    Size,
-    /// A camera matrix of another form.
-    #[error(
-        "the calibration's camera matrix has {0} numbers, and nine are due: three rows of three"
-    )]
-    Count(usize),
-    /// More than one camera matrix.
-    #[error(
-        "the calibration has several camera matrices that differ: give each camera a file of its own, with its matrix alone"
-    )]
-    Several,
+    /// A camera matrix as others write it, for a reason that is theirs.
+    #[error(transparent)]
+    Exported(#[from] Unread),
     /// The camera matrix is written by columns.
     #[error(
         "the camera matrix is transposed, its principal point {},{} stands in the last row: write it by rows, fx,0,cx / 0,fy,cy / 0,0,1, and where it is MATLAB's take 1 from cx and cy, which it counts from 1",
         .0[0], .0[1]
     )]
     Transposed([f64; 2]),
-    /// A MATLAB `IntrinsicMatrix` that is not by columns.
-    #[error(
-        "the calibration's IntrinsicMatrix is by rows, and MATLAB's, whose pixels count from 1, is by columns: nothing says from where its pixels count; if from 0 name it camera_matrix, if from 1 name it so and take 1 from cx and cy"
-    )]
-    ByRows,
-    /// The lens, or the image intensifier, bends the picture.
-    #[error(
-        "the calibration states a distortion ({0} among its coefficients), which is not taken into account: undistort the frames with it (OpenCV's undistort with the same camera matrix, MATLAB's undistortImage), and then write 0 in place of each coefficient"
-    )]
-    Distorted(f64),
-    /// The camera matrix is of frames that were binned or cut by the camera.
-    #[error(
-        "the calibration states a region or a binning of the frames ({0} pixels): a camera matrix of frames as they are is needed, without either"
-    )]
-    Region(f64),
     /// A focal length of the camera matrix is negative.
     #[error(
         "the camera matrix has a negative focal length, {focal}: it is of a camera whose {axis} runs the other way; write it without the minus, and turn the signs of the {row} row of the rotation and the {row} number of the translation, where the file has them"
@@ -150,6 +110,41 @@ pub enum CalibrationError {
     /// A value is impossible.
     #[error(transparent)]
     Camera(#[from] CameraError),
+}
+
+/// Why a camera matrix of others is not read, and what to do: words before and after a number, where one tells more. They stand where they are given, so that
+/// who reads the two forms of the field alone does not carry them.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub struct Unread {
+    before: &'static str,
+    number: Option<f64>,
+    after: &'static str,
+}
+
+impl Unread {
+    pub(super) const fn new(sentence: &'static str) -> Self {
+        Self {
+            before: sentence,
+            number: None,
+            after: "",
+        }
+    }
+
+    pub(super) const fn with(before: &'static str, number: f64, after: &'static str) -> Self {
+        Self {
+            before,
+            number: Some(number),
+            after,
+        }
+    }
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.before)?;
+        self.number.map_or(Ok(()), |number| number.fmt(f))?;
+        f.write_str(self.after)
+    }
 }
 
 /// What to do about frames of another size.

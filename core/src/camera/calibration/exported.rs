@@ -1,5 +1,7 @@
 //! Camera matrices as OpenCV, ROS and MATLAB write them.
 
+mod unread;
+
 use super::error::CalibrationError;
 use super::keyed::{Token, Tokens};
 use super::lines::{lines_of, numbers};
@@ -99,8 +101,8 @@ pub(super) fn read(text: &str) -> Result<Intrinsics, CalibrationError> {
 fn bare_numbers(text: &str) -> Result<(), CalibrationError> {
     let is_bare = lines_of(text).all(|line| numbers::<3>(line, "").is_ok());
     match lines_of(text).count() {
-        3 if is_bare => Err(CalibrationError::NineNumbers),
-        5 if is_bare => Err(CalibrationError::MayaCam1),
+        3 if is_bare => Err(unread::NINE_NUMBERS.into()),
+        5 if is_bare => Err(unread::MAYACAM_1.into()),
         _ => Ok(()),
     }
 }
@@ -137,7 +139,7 @@ impl Found {
 
     fn add_matrix(&mut self, value: &Value, is_matlab: bool) -> Result<(), CalibrationError> {
         if value.count != KEPT {
-            return Err(CalibrationError::Count(value.count));
+            return Err(unread::count(value.count).into());
         }
         let at = |row: usize, column: usize| value.numbers[3 * row + column];
         let k = core::array::from_fn(|row| core::array::from_fn(|column| at(row, column)));
@@ -145,11 +147,11 @@ impl Found {
             true if is_transposed(&k) => {
                 core::array::from_fn(|row| core::array::from_fn(|column| at(column, row)))
             }
-            true => return Err(CalibrationError::ByRows),
+            true => return Err(unread::BY_ROWS.into()),
             false => k,
         };
         match self.matrix.replace(k) {
-            Some(other) if other != k => Err(CalibrationError::Several),
+            Some(other) if other != k => Err(unread::SEVERAL.into()),
             _ => Ok(()),
         }
     }
@@ -169,10 +171,10 @@ impl Found {
             return Err(CalibrationError::Matrix);
         }
         if self.distortion != 0.0 {
-            return Err(CalibrationError::Distorted(self.distortion));
+            return Err(unread::distorted(self.distortion).into());
         }
         if self.region != 0.0 {
-            return Err(CalibrationError::Region(self.region));
+            return Err(unread::region(self.region).into());
         }
         if self.is_matlab {
             read.centre = read.centre.map(|place| place - 1.0);
@@ -185,12 +187,12 @@ impl Found {
             (_, Some(width), Some(height)) => [width, height],
             (Some([height, width]), ..) if self.is_matlab => [width, height],
             (Some(both), ..) => both,
-            _ => return Err(CalibrationError::NoSize),
+            _ => return Err(unread::NO_SIZE.into()),
         };
         let sides = [width, height].map(|side| side as usize);
         match sides.map(|side| side as f64) == [width, height] {
             true => Ok((sides[0], sides[1])),
-            false => Err(CalibrationError::Size),
+            false => Err(unread::SIZE.into()),
         }
     }
 }
@@ -202,7 +204,7 @@ fn only(side: &mut Option<f64>, value: &Value) -> Result<(), CalibrationError> {
         return Ok(());
     }
     if value.count != 1 || side.is_some_and(|known| known != stated) {
-        return Err(CalibrationError::Size);
+        return Err(unread::SIZE.into());
     }
     *side = Some(stated);
     Ok(())

@@ -16,7 +16,7 @@ type Change = (of: (now: Proposal) => Partial<Proposal>) => void;
 export function ImportSheet({ state }: { state: State }) {
   const { store } = useApp().services;
   const { proposal } = state.ui;
-  const { exchange } = texts;
+  const { exchange } = later;
   useEffect(() => () => tellWaiting(store), []);
   if (!proposal) return <p class="sheet-body sheet-text">{exchange.nothing}</p>;
   const rows = assignments(state.history.present, proposal);
@@ -71,7 +71,7 @@ export function ImportSheet({ state }: { state: State }) {
 
 /** A sheet that was left without an answer is not gone. */
 function tellWaiting(store: Store): void {
-  const { exchange } = texts;
+  const { exchange } = later;
   if (store.ui.proposal) store.say('info', exchange.waiting, { label: exchange.goOn, take: () => store.show({ popover: 'import' }) });
 }
 
@@ -82,12 +82,12 @@ function close(store: Store): void {
 function apply(store: Store, proposal: Proposal, going: number): void {
   store.perform(importProposal(store.doc, proposal));
   close(store);
-  store.say('info', texts.exchange.applied(going));
+  store.say('info', later.exchange.applied(going));
 }
 
 /** How outlines are put to frames, and whether they are taken point for point. */
 function Options({ proposal, change }: { proposal: Proposal; change: Change }) {
-  const { exchange } = texts;
+  const { exchange } = later;
   return (
     <div class="import-options">
       <fieldset class="choices">
@@ -105,9 +105,9 @@ function Options({ proposal, change }: { proposal: Proposal; change: Change }) {
             <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
             {exchange.exact}
           </label>
-          <label class="check" title={later.opening.onFramesTitle}>
+          <label class="check" title={exchange.onFramesTitle}>
             <input type="checkbox" checked={proposal.onFrames} onChange={({ currentTarget: { checked } }) => change(() => ({ onFrames: checked }))} />
-            {later.opening.onFrames}
+            {exchange.onFrames}
           </label>
         </>
       )}
@@ -117,7 +117,7 @@ function Options({ proposal, change }: { proposal: Proposal; change: Change }) {
 
 /** Which component each name in the files means. */
 function Subjects({ proposal, change }: { proposal: Proposal; change: Change }) {
-  const { exchange } = texts;
+  const { exchange } = later;
   const set = (subject: string, value: string) => {
     const component = (value || null) as ComponentName | null;
     change(({ subjects }) => ({ subjects: { ...subjects, [subject]: component } }));
@@ -150,12 +150,12 @@ function Subjects({ proposal, change }: { proposal: Proposal; change: Change }) 
 function severalSets({ subjects }: Proposal): readonly string[] {
   return COMPONENT_NAMES.flatMap((component) => {
     const names = Object.keys(subjects).filter((subject) => componentNamed(subject) === component);
-    return names.length > 1 ? [texts.exchange.severalSets(texts.component[component], texts.listed(names))] : [];
+    return names.length > 1 ? [later.exchange.severalSets(texts.component[component], texts.listed(names))] : [];
   });
 }
 
 function Assignments({ rows, proposal }: { rows: readonly Assignment[]; proposal: Proposal }) {
-  const { exchange } = texts;
+  const { exchange } = later;
   return (
     <div class="work-scroll">
       <table class="work-table" aria-label={exchange.table}>
