@@ -44,6 +44,17 @@ pub(crate) enum Edit {
     },
 }
 
+impl Edit {
+    /// From where to where it is written beside.
+    pub(crate) fn range(&self) -> Range<usize> {
+        match self {
+            Self::Instead { of, .. } => of.clone(),
+            Self::Return { at, .. } => *at..*at,
+            Self::Never { at, guard_end } => *at..guard_end.unwrap_or(*at),
+        }
+    }
+}
+
 impl fmt::Display for Change {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {

@@ -19,10 +19,16 @@ struct Piece {
     text: String,
 }
 
-/// Weaves changes, each with its number, into the text they were found in; of changes that lie in each other the outer ones come first.
+/// Weaves changes, each with its number, into the text they were found in.
 pub(crate) fn weave(text: &str, changes: &[(usize, &Change)]) -> Woven {
+    let mut changes = changes.to_vec();
+    // Outer ones first; of one and the same expression as they are given.
+    changes.sort_by_key(|(_, change)| {
+        let Range { start, end } = change.edit.range();
+        (start, std::cmp::Reverse(end))
+    });
     let mut pieces: Vec<Piece> = Vec::new();
-    for &(number, change) in changes {
+    for (number, change) in changes {
         let on = format!("::fluoropose_switch::on({number})");
         let mut piece = |at, begins, text| {
             pieces.push(Piece {
@@ -117,6 +123,23 @@ mod tests {
             "a + (if ::fluoropose_switch::on(5) { (b) } else { -b }) }) }) }\n",
         ];
         assert_eq!(woven.text, parts.join(" "));
+    }
+
+    /// The product is found first, and lies in the quotient: the quotient's change takes the whole of it.
+    #[test]
+    fn an_expression_that_begins_another_lies_in_it_whatever_the_order() {
+        let source = "fn part(a: f64, b: f64, c: f64) -> f64 { a * b / c }\n";
+        let (changes, _) = of_file("a.rs", source).unwrap_or_default();
+        let of = |what: &str| changes.iter().position(|one| one.what.starts_with(what));
+        let (quotient, product) = (of("% for /").unwrap_or(9), of("+ for *").unwrap_or(9));
+        for order in [[quotient, product], [product, quotient]] {
+            let numbered = order.map(|number| (number, &changes[number]));
+            let woven = weave(source, &numbered);
+            let due = format!(
+                "{{ (if ::fluoropose_switch::on({quotient}) {{ (a * b) % (c) }} else {{ (if ::fluoropose_switch::on({product}) {{ (a) + (b) }} else {{ a * b }}) / c }}) }}\n"
+            );
+            assert!(woven.text.ends_with(&due), "{}", woven.text);
+        }
     }
 
     #[test]
