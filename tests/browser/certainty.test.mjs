@@ -126,7 +126,7 @@ async function rivals(page, stage, t) {
   await stage.trace(outline);
   const card = page.getByRole('region', { name: 'Score and candidates' });
   // The femur may have to be refined first.
-  const reason = await until(() => card.innerText(), (text) => /By the (residual|coronal tilt)/.test(text), 'the reason');
+  const reason = await until(() => card.innerText(), (text) => /It fits best: residual|coronal tilt against it/.test(text), 'the reason');
   const best = await panel.waitForPose(page);
   t.diagnostic(`${reason.split('\n').at(-1)}; ${await timing(page)}`);
   const truth = await truePose('tibia', 1);
@@ -159,7 +159,7 @@ async function table(page) {
   assert(Number(value('sd_z_mm')) > 0.01 && Number(value('sd_z_mm')) < 20, `sd_z_mm ${value('sd_z_mm')}`);
   assert.equal(value('verdict'), 'good');
   assert.equal(value('method'), 'refined');
-  assert.match(first, /By the (residual|coronal tilt)/);
+  assert.match(first, /It fits best: residual|coronal tilt against it/);
   assert.match(second, /^2,0002\.png,+$/);
 }
 
