@@ -120,8 +120,9 @@ mod tests {
             (2.4, "in centimetres or inches?"),
         ] {
             let remarks = box_of(size).remarks();
+            let across = format!("{:.3} mm across", f64::from(size) * 3f64.sqrt());
             assert!(
-                remarks.len() == 1 && remarks[0].contains(unit),
+                remarks.len() == 1 && remarks[0].contains(unit) && remarks[0].contains(&across),
                 "{size}: {remarks:?}"
             );
         }
