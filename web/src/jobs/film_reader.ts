@@ -9,7 +9,7 @@ import { pointsFrom } from '../geometry/points';
 import type { Vector } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { indexOfFrame } from '../document/frame_index';
-import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
+import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, UNMET, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -414,13 +414,24 @@ export class FilmReader {
     }
   }
 
+  /** The frame does not lead on from the pose at all. */
+  #refuse(place: Place, result: Posed): void {
+    const after: Posed = { ...result, verdict: result.verdict?.word === 'doubtful' ? result.verdict : UNMET };
+    for (const one of [result, after]) this.#refused.add(one);
+    this.#services.store.amend((doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      return cell.result === result ? withCell(doc, place, { ...cell, result: after }) : doc;
+    });
+  }
+
   async #correct(place: Place, result: Posed): Promise<void> {
     const input = await onFrameInput(this.#services, place);
     const misfits = misfitsBeside(this.#services.store.doc, place);
     const { chosen } = result;
     const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
     const answers = await this.#poses.call('correct', { ...input, candidates, chosen, misfits }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
-    if (!answers.some(({ from }) => from === chosen) || !input.film) return void this.#refused.add(result);
+    if (!input.film) return void this.#refused.add(result);
+    if (!answers.some(({ from }) => from === chosen)) return this.#refuse(place, result);
     const film = input.film.slice(0, CONSTANTS);
     this.#services.store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);

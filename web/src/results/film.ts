@@ -198,9 +198,17 @@ export function corrected(before: Candidate, { pose, residual, deviations, judge
 /** So many times what another pose leaves rules a pose out, as the core has it. */
 const DECISIVE = 1.3;
 
+/** On a pose that its frame does not bear out. */
+export const UNMET: Verdict = { word: 'doubtful', because: texts.film.unmet };
+
+/** The verdict on a pose that was held against its frame. */
+function verdictOnFrame({ judged }: Candidate): Verdict {
+  return judged?.verdict ?? UNMET;
+}
+
 /** The verdict on corrected poses, the chosen one first: its own, or that another is open or leaves clearly less. */
 export function verdictAfter(before: Posed, [first, ...others]: readonly Candidate[]): Verdict | null {
-  const own = first?.judged?.verdict ?? null;
+  const own = first ? verdictOnFrame(first) : null;
   const misfit = first?.judged?.misfit ?? 0;
   const least = Math.min(...others.map(({ judged }) => judged?.misfit ?? Infinity));
   if (own?.word === 'good' && DECISIVE * least < misfit) return { word: 'doubtful', because: texts.film.another(misfit, least) };
@@ -222,15 +230,15 @@ export function settled(before: Posed, candidates: readonly Candidate[], more: r
   const rest = candidates.filter((candidate) => candidate !== own);
   const all = { candidates: [...candidates, ...more], chosen };
   // The others came to the same pose.
-  if (own && all.candidates.length === 1) return { ...all, decided: true, reason: decided ? reason : null, verdict: own.judged?.verdict ?? null };
-  if (!own || !best || misfitOf(best) > DECISIVE * misfitOf(own)) {
+  if (own && all.candidates.length === 1) return { ...all, decided: true, reason: decided ? reason : null, verdict: verdictOnFrame(own) };
+  if (!own || !best?.judged || misfitOf(best) > DECISIVE * misfitOf(own)) {
     // Between several poses something else decided, which still holds.
-    const why = own && best && candidates.length === 1 ? texts.film.clearer(misfitOf(own), misfitOf(best)) : reason;
+    const why = own?.judged && best && candidates.length === 1 ? texts.film.clearer(misfitOf(own), misfitOf(best)) : reason;
     return { ...all, decided, reason: why, verdict: own ? verdictAfter(before, [own, ...rest]) : before.verdict };
   }
   if (chosen !== 0 || DECISIVE * misfitOf(best) > misfitOf(own)) {
-    const alone = own.judged?.verdict ?? null;
-    const verdict: Verdict | null = alone?.word === 'good' ? { word: 'doubtful', because: texts.film.alike(misfitOf(own), misfitOf(best)) } : alone;
+    const alone = verdictOnFrame(own);
+    const verdict: Verdict = alone.word === 'good' ? { word: 'doubtful', because: texts.film.alike(misfitOf(own), misfitOf(best)) } : alone;
     return { ...all, decided: false, reason: texts.film.undecided(misfitOf(candidates[0] ?? own), misfitOf(best)), verdict };
   }
   const others = [...candidates, ...more.filter((candidate) => candidate !== best)];

@@ -17,6 +17,7 @@ export const film = {
     `On this film it leaves ${px.toFixed(2)} px, its mirror image ${Number.isFinite(other) ? `${other.toFixed(2)} px` : 'meets no edges'}.`,
   undecided: (px: number, other: number) => `Not decided: on this film it leaves ${px.toFixed(2)} px, its mirror image ${other.toFixed(2)} px.`,
   another: (px: number, other: number) => `another pose leaves less on this film (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
+  unmet: "the frame has no edges where the model's outline would lie at this pose: was it found from another frame's mask or outline, or is the implant hidden here?",
   refined: {
     all: 'This pose was refined before that was known; it stays as it was.',
     others: 'This pose was refined when the film was known otherwise; it stays as it was.',

@@ -202,6 +202,19 @@ describe('what a known film changes', () => {
       expect(settled({ ...alone, chosen: 1 }, [candidate(0.3), own], [candidate(0.25)]).reason).toMatch(/^Not decided/);
     });
 
+    it('one that its frame does not bear out is doubtful, also beside others of which that is so', () => {
+      const unmet = { ...candidate(0.2), judged: null };
+      const doubtful = { word: 'doubtful', because: expect.stringContaining("another frame's mask") as string };
+      for (const more of [[], [unmet]]) {
+        const after = settled({ ...before(GOOD), reason: 'The only pose found.' }, [unmet], more);
+        expect(after).toMatchObject({ chosen: 0, reason: 'The only pose found.', verdict: doubtful });
+      }
+      expect(settled({ ...before(GOOD), chosen: 1 }, [candidate(0.1), unmet], []).verdict).toEqual(doubtful);
+      // One that the frame bears out takes its place.
+      const met = candidate(0.4);
+      expect(settled(before(GOOD), [unmet], [met])).toMatchObject({ candidates: [met, unmet], chosen: 0, verdict: GOOD });
+    });
+
     it('one that leaves more is a candidate, and no more than that', () => {
       const worse = candidate(0.3);
       expect(settled(before(GOOD), [own], [worse])).toEqual({ candidates: [own, worse], chosen: 0, decided: true, verdict: GOOD, reason: 'On this film it leaves 0.20 px, its mirror image 0.30 px.' });
