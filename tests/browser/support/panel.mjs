@@ -187,7 +187,13 @@ export async function openDemonstration(page, frames = DEMONSTRATED) {
 export async function shorten(page, frames) {
   const manifest = JSON.parse((await demoFile('demo.json')).buffer.toString());
   const json = { ...manifest, frames: manifest.frames.slice(0, frames) };
-  await page.route(`${ADDRESS}demo/demo.json`, (route) => route.fulfill({ json }), { times: 1 });
+  let isShortened = false;
+  // The route stays: where the last one goes the browser lets go of what is under way, and a request beside it may wait for ever.
+  await page.route(`${ADDRESS}demo/demo.json`, (route) => {
+    if (isShortened) return route.continue();
+    isShortened = true;
+    return route.fulfill({ json });
+  });
 }
 
 /** Waits until the last change is kept in the browser. @param {Page} page */

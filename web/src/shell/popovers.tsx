@@ -1,5 +1,5 @@
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Popover, State } from '../document/store';
 import { titleOf } from '../terms/component';
 import { useApp } from '../commands/app';
@@ -88,7 +88,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
 function Sheet({ name, title, children }: { name: Popover; title: string; children: ComponentChildren }) {
   const { store } = useApp().services;
   const sheet = useRef<HTMLElement>(null);
-  useEffect(() => {
+  // Before it is seen: a key that is pressed then is not for the pose behind it.
+  useLayoutEffect(() => {
     const before = document.activeElement;
     sheet.current?.focus();
     return () => {
