@@ -391,8 +391,12 @@ export function verdictAlone(result: Result | null): Verdict | null {
   // Who took another one knows of the first.
   if (result.chosen === 0) return result.verdict;
   const taken = result.candidates[result.chosen];
-  return taken?.judged?.verdict ?? (taken && result.from === 'film' ? fixed(taken) : null);
+  const unjudged = result.onFrame?.film ? UNMET : null;
+  return taken?.judged?.verdict ?? (taken && result.from === 'film' ? fixed(taken) : unjudged);
 }
+
+/** On a pose that its frame does not bear out. */
+export const UNMET: Verdict = { word: 'doubtful', because: texts.film.unmet };
 
 /** What a pose that a person fixed may leave beside the edges, px: as the core has it of those that lead following. */
 const FIXED = 2;

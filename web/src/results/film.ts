@@ -2,7 +2,7 @@ import { inFilmOrder, indexOfFrame } from '../document/frame_index';
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
 import { hasLed } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
-import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictAlone } from '../document/types';
+import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, UNMET, type Verdict, verdictAlone } from '../document/types';
 import { type CellEntry, CellIndex } from '../document/cells';
 import type { Place } from '../document/command';
 import { inCamera, turnBetween, type Vector } from '../geometry/pose_motion';
@@ -197,9 +197,6 @@ export function corrected(before: Candidate, { pose, residual, deviations, judge
 
 /** So many times what another pose leaves rules a pose out, as the core has it. */
 const DECISIVE = 1.3;
-
-/** On a pose that its frame does not bear out. */
-export const UNMET: Verdict = { word: 'doubtful', because: texts.film.unmet };
 
 /** The verdict on a pose that was held against its frame. */
 function verdictOnFrame({ judged }: Candidate): Verdict {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { filmNumbers, stateFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
-import { NOTHING_STATED, cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
+import { NOTHING_STATED, cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict, verdictOf } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { rotated } from '../../src/geometry/pose_motion';
 import { filmMissed, corrected, isNear, isNews, isSamePlace, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
@@ -210,6 +210,8 @@ describe('what a known film changes', () => {
         expect(after).toMatchObject({ chosen: 0, reason: 'The only pose found.', verdict: doubtful });
       }
       expect(settled({ ...before(GOOD), chosen: 1 }, [candidate(0.1), unmet], []).verdict).toEqual(doubtful);
+      const chosen: Posed = { ...before(GOOD), candidates: [candidate(0.1), unmet], chosen: 1, onFrame: { film: K } };
+      expect(verdictOf(chosen)).toEqual(doubtful);
       // One that the frame bears out takes its place.
       const met = candidate(0.4);
       expect(settled(before(GOOD), [unmet], [met])).toMatchObject({ candidates: [met, unmet], chosen: 0, verdict: GOOD });
