@@ -388,10 +388,10 @@ export function isTaken(result: Result | null): result is Posed {
 /** The same without what its joint tells: what is worked out from poses rests on them as they are by themselves. */
 export function verdictAlone(result: Result | null): Verdict | null {
   if (result?.kind !== 'posed') return null;
-  // Who took another one knows of the first.
-  if (result.chosen === 0) return result.verdict;
   const taken = result.candidates[result.chosen];
-  const unjudged = result.onFrame?.film ? UNMET : null;
+  const unjudged = result.onFrame?.film && taken && !taken.judged ? UNMET : null;
+  // Who took another one knows of the first.
+  if (result.chosen === 0) return result.verdict ?? unjudged;
   return taken?.judged?.verdict ?? (taken && result.from === 'film' ? fixed(taken) : unjudged);
 }
 
