@@ -52,7 +52,7 @@ async function openAll(services: Services, work: WorkOnView, files: readonly Inc
   const all = await recognised(services, files, failed);
   const study = await studyAmong(all, failed);
   const meant = study ? asTheStudyMeans(study, all, leftOut) : ofOneStudy(all, failed);
-  const outlines = await outlineFiles(services, meant);
+  const outlines = await outlineFiles(services, meant, outcome.news);
   const others = meant.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
   const frames = framesMeant(study, others.filter((file) => file.kind === 'frames'), leftOut);
   const isOther = isWhole(study, others) && (await areOthers(services, frames));
@@ -175,9 +175,9 @@ export function statesSomething(stated: StatedGeometry | null): number {
 
 /**
  * Files of outlines among others: those that say so, and images with no more grey values than a mask has, where there
- * are frames that they can be masks of.
+ * are frames that they can be masks of. Where there are none it is said what becomes of them.
  */
-async function outlineFiles({ store }: Services, files: readonly Recognised[]): Promise<readonly OutlineFile[]> {
+async function outlineFiles({ store }: Services, files: readonly Recognised[], news: string[]): Promise<readonly OutlineFile[]> {
   const told = files.flatMap((file): OutlineFile[] => {
     const { kind } = file;
     return kind === 'outlines' || kind === 'coco' ? [{ ...file, kind }] : [];
@@ -188,7 +188,9 @@ async function outlineFiles({ store }: Services, files: readonly Recognised[]): 
   const masks = await masksAmong(store, images);
   const frames = store.doc.frames.length + images.length - masks.size;
   const found = images.filter((file) => masks.has(file)).map((file): OutlineFile => ({ ...file, kind: 'mask' }));
-  return frames === 0 ? told : [...told, ...found];
+  if (frames > 0) return [...told, ...found];
+  if (found.length > 1) news.push(later.opening.masksAlone(found.length));
+  return told;
 }
 
 async function proposeOutlines(services: Services, outlines: readonly OutlineFile[], files: readonly Incoming[]): Promise<void> {

@@ -22,4 +22,6 @@ export const opening = {
   take: 'Order by number',
   taken: (first: string) => `The frames stand by the numbers in their files; ${first} is first. The commands go by names: rename the files for them.`,
   step: 'order the frames by number',
+  masksAlone: (count: number) =>
+    `All ${count} pictures look like masks, and there are no frames that they are of: each is opened as a frame of its own. Open the film's frames with them; of masks alone the command pose finds poses.`,
 };
