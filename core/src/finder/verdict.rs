@@ -267,7 +267,7 @@ impl fmt::Display for Doubt {
             ),
             Self::OffTheWay(Detour { deg, usual_deg }) => write!(
                 f,
-                "by way of it the film turns {}\u{b0} farther than past it from the good frame before to the good one after, where {}\u{b0} is usual: is it another pose?",
+                "it does not go with the good frames beside it: through it the film would turn {}\u{b0} farther, where {}\u{b0} is usual: is it another pose, or the mask of another frame?",
                 Decimal::new(deg, 0),
                 Decimal::new(usual_deg, 0)
             ),
