@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::joint::{BORDER, KneeJoint, OUT, SHOWN};
 use fluoropose_page::error::sentence;
-use fluoropose_page::pose_numbers::from_numbers;
+use fluoropose_page::pose_numbers::{all_poses, from_numbers};
 
 /// A joint's motion on its way into files. Frames come one by one, in the order of the film.
 #[wasm_bindgen]
@@ -167,18 +167,6 @@ pub fn write_jtap(pose: &[f64]) -> Result<String, JsError> {
 #[wasm_bindgen(js_name = writeTra)]
 pub fn write_tra(femur: &[f64], tibia: &[f64]) -> Result<String, JsError> {
     Ok(write::tra(&[&all_poses(femur)?, &all_poses(tibia)?]))
-}
-
-fn all_poses(numbers: &[f64]) -> Result<Vec<Option<Pose>>, JsError> {
-    let (poses, rest) = numbers.as_chunks::<6>();
-    if !rest.is_empty() {
-        return Err(JsError::new("A pose is six numbers"));
-    }
-    let pose = |numbers: &[f64; 6]| match numbers.iter().all(|number| number.is_nan()) {
-        true => Ok(None),
-        false => Ok(Some(Pose::from(from_numbers(numbers)?))),
-    };
-    poses.iter().map(pose).collect()
 }
 
 /// Numbers and their standard deviations, NaN where these are not known. What comes after them follows from both.

@@ -22,6 +22,22 @@ pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
     }
 }
 
+/// The poses of a film, six numbers a frame, all NaN where there is none.
+///
+/// # Errors
+/// A sentence where there are not six for each.
+pub fn all_poses(numbers: &[f64]) -> Result<Vec<Option<Pose>>, JsError> {
+    let (poses, rest) = numbers.as_chunks::<6>();
+    if !rest.is_empty() {
+        return Err(JsError::new("A pose is six numbers"));
+    }
+    let pose = |numbers: &[f64; 6]| match numbers.iter().all(|number| number.is_nan()) {
+        true => Ok(None),
+        false => Ok(Some(Pose::from(from_numbers(numbers)?))),
+    };
+    poses.iter().map(pose).collect()
+}
+
 /// The rotation `model_from_field` of nine numbers: the directions anterior, superior and to the patient's right, one after
 /// another, in the model's coordinates.
 ///

@@ -1,20 +1,32 @@
-import { COMPONENT_NAMES } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { withCell } from './commands';
 import { cellOf, type Doc, type Posed } from './types';
 
+/** What is told of a pose beside its own verdict: by its joint, or by the frames beside it. */
+type Told = 'aside' | 'detour';
+
 /** What the joint tells of poses, frame by frame; null takes back what was told. The same object where nothing changes. */
 export function withAsides(doc: Doc, told: readonly (string | null)[]): Doc {
-  return doc.frames.reduce((changed, { id: frameId }, index) => COMPONENT_NAMES.reduce((changed, component) => {
-    const cell = cellOf(changed, frameId, component);
-    const { result } = cell;
-    const aside = told[index] ?? null;
-    if (result?.kind !== 'posed' || (result.aside ?? null) === aside) return changed;
-    return withCell(changed, { frameId, component }, { ...cell, result: withAside(result, aside) });
-  }, changed), doc);
+  return COMPONENT_NAMES.reduce((changed, component) => withTold(changed, component, 'aside', told), doc);
 }
 
-function withAside(result: Posed, aside: string | null): Posed {
-  if (aside !== null) return { ...result, aside };
-  const { aside: _, ...rest } = result;
+/** The same of what the frames beside them tell of one component's poses. */
+export function withDetours(doc: Doc, component: ComponentName, told: readonly (string | null)[]): Doc {
+  return withTold(doc, component, 'detour', told);
+}
+
+function withTold(doc: Doc, component: ComponentName, what: Told, told: readonly (string | null)[]): Doc {
+  return doc.frames.reduce((changed, { id: frameId }, index) => {
+    const cell = cellOf(changed, frameId, component);
+    const { result } = cell;
+    const sentence = told[index] ?? null;
+    if (result?.kind !== 'posed' || (result[what] ?? null) === sentence) return changed;
+    return withCell(changed, { frameId, component }, { ...cell, result: telling(result, what, sentence) });
+  }, doc);
+}
+
+function telling(result: Posed, what: Told, sentence: string | null): Posed {
+  if (sentence !== null) return { ...result, [what]: sentence };
+  const { [what]: _, ...rest } = result;
   return rest;
 }

@@ -250,6 +250,8 @@ export interface Posed {
   readonly own?: Verdict;
   /** What the joint with the other component tells of it, whatever it is by itself: a sentence without its full stop. */
   readonly aside?: string;
+  /** What the good poses in the frames beside it tell of it, where it does not go with them: such a sentence. */
+  readonly detour?: string;
   /** Of a pose set by hand: the poses that had been found there, against which it is held. */
   readonly rivals?: readonly PoseNumbers[];
   /** The version of this program that worked it out; missing for what did not come from it. */
@@ -372,8 +374,8 @@ export const FOLLOWED = 'followed from';
 
 /** On the pose that is chosen; null where none was given: poses of the library, of files, of old sessions. */
 export function verdictOf(result: Result | null): Verdict | null {
-  const aside = result?.kind === 'posed' ? result.aside : undefined;
-  if (aside !== undefined) return { word: 'doubtful', because: aside };
+  const told = result?.kind === 'posed' ? (result.aside ?? result.detour) : undefined;
+  if (told !== undefined) return { word: 'doubtful', because: told };
   const verdict = verdictAlone(result);
   // That it fits is why there was a choice: which of them is right stays open until a person has accepted it.
   if (isTaken(result) && result.verdict && verdict?.word === 'good') return { word: 'doubtful', because: texts.follow.taken(result.verdict.word, result.verdict.because) };
@@ -385,7 +387,7 @@ export function isTaken(result: Result | null): result is Posed {
   return result?.kind === 'posed' && result.chosen !== 0;
 }
 
-/** The same without what its joint tells: what is worked out from poses rests on them as they are by themselves. */
+/** The same without what its joint and its film tell: what is worked out from poses rests on them as they are by themselves. */
 export function verdictAlone(result: Result | null): Verdict | null {
   if (result?.kind !== 'posed') return null;
   const taken = result.candidates[result.chosen];

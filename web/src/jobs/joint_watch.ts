@@ -52,6 +52,7 @@ export class JointWatch {
       this.#say();
       void this.#look();
     });
+    void this.#look();
   }
 
   async #look(): Promise<void> {

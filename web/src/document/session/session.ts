@@ -194,7 +194,7 @@ const readCandidate: Reader<Candidate> = (value, path) => {
   return { ...readCandidateParts(value, path), ...(support !== null && { support }) };
 };
 
-const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt' | 'own' | 'aside' | 'rivals'>>({
+const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt' | 'own' | 'aside' | 'detour' | 'rivals'>>({
   kind: oneOf('posed'),
   from: oneOf('outline', 'file', 'hand', 'film'),
   origin: text,
@@ -206,19 +206,19 @@ const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt' | 'own
 });
 
 const readPosed: Reader<Posed> = (value, path) => {
-  const { program, onFrame, doubt, own, aside, rivals } = readLater(value, path);
+  const { program, onFrame, doubt, own, aside, detour, rivals } = readLater(value, path);
   const read = readPosedParts(value, path);
   // Where there is none, the first is chosen of none.
   if (read.chosen >= Math.max(1, read.candidates.length)) throw new ReadError(`${path}.chosen is ${read.chosen} of ${read.candidates.length}`);
   const parts = { ...read, origin: interned(read.origin) };
   const found = onFrame ?? (isByClick(parts) ? { film: null } : null);
-  return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }), ...(own && { own }), ...(aside !== null && { aside }), ...(rivals && { rivals }) };
+  return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }), ...(own && { own }), ...(aside !== null && { aside }), ...(detour !== null && { detour }), ...(rivals && { rivals }) };
 };
 
 const readOnFrame = object<OnFrame>({ film: nullable(list(number)) });
 
 /** What came into sessions afterwards. */
-const readLater = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number), own: optional(readVerdict), aside: optional(text), rivals: optional(list(readPose)) });
+const readLater = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number), own: optional(readVerdict), aside: optional(text), detour: optional(text), rivals: optional(list(readPose)) });
 
 /** Sessions of versions 1 to 4 do not say it: what was refined and never drawn against an outline came of one click. */
 function isByClick({ from, candidates }: Pick<Posed, 'from' | 'candidates'>): boolean {

@@ -3,7 +3,7 @@ import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { COMPONENT_NAMES } from '../../terms/component';
 import type { Femurs, FilmReading, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
-import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, posesArray, uncertaintyFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
 import { firstPoses, Searcher } from './first_poses';
 import { withImage } from './frame_pixels';
@@ -17,7 +17,6 @@ let reader: FilmReader | null = null;
 const searcher = new Searcher();
 let frames = 0;
 
-const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 
 serve<FollowProtocol>({
   ...firstPoses(ready, searcher),
@@ -78,7 +77,7 @@ serve<FollowProtocol>({
   },
   standsWith: ({ femurs }) => (working().standsWith(...numbers(femurs)) ? null : (working().wanted() ?? null)),
   lookBeside: ({ other, otherMiddles, femurs }) => {
-    working().lookBeside(allNumbers(other), otherMiddles, ...numbers(femurs));
+    working().lookBeside(posesArray(other), otherMiddles, ...numbers(femurs));
     return working().wanted() ?? null;
   },
   good: ({ otherMiddles }) => rowsOf(working().good(otherMiddles), 6).map((pose) => (pose.every(Number.isFinite) ? poseFrom(Float64Array.from(pose)) : null)),
@@ -124,11 +123,7 @@ function posed(numbers: Float64Array | undefined): PoseNumbers | null {
 function numbers(femurs: Femurs | null): readonly [Float64Array, Float64Array, Float64Array] {
   if (!femurs) return [NONE, NONE, NONE];
   const { poses, axes, own } = femurs;
-  return [allNumbers(poses), numbersOf(axes), numbersOf(own)];
-}
-
-function allNumbers(poses: readonly (PoseNumbers | null)[]): Float64Array {
-  return Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE)));
+  return [posesArray(poses), numbersOf(axes), numbersOf(own)];
 }
 
 /** Numbers in rows of so many. */

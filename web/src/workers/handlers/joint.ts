@@ -1,14 +1,12 @@
 import { JointReport, KneeJoint, KneeMiddles, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { COMPONENT_NAMES } from '../../terms/component';
 import type { FlippedLook, JointPart, JointProtocol, JointText, KneeFilm, LyingPose, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
-import { poseArray, uncertaintyArray } from '../protocol/pose_array';
+import { NO_POSE, poseArray, posesArray, uncertaintyArray } from '../protocol/pose_array';
 import { withImage } from './frame_pixels';
 import type { Handlers } from './serve';
 
 const NOTHING = new Float64Array();
-const NO_POSE: readonly number[] = Array<number>(6).fill(NaN);
 
 /** The joint between two components, open in this worker. */
 export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
@@ -109,14 +107,13 @@ function textOf(report: JointReport, what: JointText): string {
 }
 
 function poseText(text: PoseText): string {
-  const numbers = (poses: readonly (PoseNumbers | null)[]) => Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE)));
   switch (text.form) {
     case 'jtak':
-      return writeJtak(numbers(text.poses));
+      return writeJtak(posesArray(text.poses));
     case 'jtap':
-      return writeJtap(numbers(text.poses));
+      return writeJtap(posesArray(text.poses));
     case 'tra':
-      return writeTra(numbers(text.poses.femur), numbers(text.poses.tibia));
+      return writeTra(posesArray(text.poses.femur), posesArray(text.poses.tibia));
   }
 }
 

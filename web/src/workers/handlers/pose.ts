@@ -1,8 +1,8 @@
-import { calibrationText, cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, modelRemarks, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { calibrationText, cameraDoubts, checkLibrary, choosePose, componentByShape, flangeSide, Matcher, modelRemarks, offTheWay, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
-import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, posesArray, uncertaintyFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
 import type { DistortionInput } from '../protocol/camera';
@@ -46,6 +46,10 @@ serve<PoseProtocol>({
   calibrationText: async ({ text }) => {
     await ready;
     return calibrationText(text);
+  },
+  offTheWay: async ({ poses }) => {
+    await ready;
+    return offTheWay(posesArray(poses)) as (string | null)[];
   },
   cameraDoubts: async ({ text, width, height, stated }) => {
     await ready;

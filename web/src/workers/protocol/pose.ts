@@ -38,6 +38,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   shape: { input: { mesh: ModelMesh }; output: ShapeFacts; progress: never };
   /** A calibration of any kind in a form that the page reads; throws the core's sentence about it. */
   calibrationText: { input: { text: string }; output: string; progress: never };
+  /** What is told of each pose of a film that does not go through it, without its full stop; null where nothing is, or there is no good pose. */
+  offTheWay: { input: { readonly poses: readonly (PoseNumbers | null)[] }; output: readonly (string | null)[]; progress: never };
   /** What is unusual of the camera of a calibration: sentences without their full stops. */
   cameraDoubts: { input: Pick<CameraInput, 'text' | 'width' | 'height'> & { readonly stated: StatedGeometry | null }; output: readonly string[]; progress: never };
   /** What a model's shape tells of its axes. */

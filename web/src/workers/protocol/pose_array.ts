@@ -10,6 +10,14 @@ export function poseFrom(values: ArrayLike<number>): PoseNumbers {
   return { x, y, z, zRot, xRot, yRot };
 }
 
+/** As many numbers that say that there is no pose. */
+export const NO_POSE: readonly number[] = Array<number>(6).fill(NaN);
+
+/** The poses of a film, frame by frame. */
+export function posesArray(poses: readonly (PoseNumbers | null)[]): Float64Array {
+  return Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE)));
+}
+
 /** Numbers of a pose's uncertainty on the same way: six standard deviations, the upper half of a covariance, what of it is the film's. */
 const UNCERTAIN = 39;
 
