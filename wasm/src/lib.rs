@@ -47,3 +47,4 @@ pub use matcher::{
     OneClickAnswer, ViewPose,
 };
 pub use search_plan::{SearchPlan, SearchStep};
+pub use way::off_the_way;
