@@ -25,7 +25,7 @@ pub enum Problem {
     Empty,
     /// The content is not a frame of a kind that is read here; `found` says what it looks like.
     #[error(
-        "this is {found}, not a frame. Frames are PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM files"
+        "this is {found}, not a frame. Frames are PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM files, or NumPy arrays"
     )]
     NotAFrame {
         /// What the content looks like, as a noun.

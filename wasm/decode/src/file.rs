@@ -7,9 +7,9 @@ use crate::error::{DecodeError, Problem};
 use crate::frame::GreyFrame;
 use crate::limits::MAX_PIXEL_BYTES_AT_ONCE;
 use crate::sniff::{Kind, sniff};
-use crate::{bmp, jpeg, jpeg2000, png, tiff};
+use crate::{bmp, jpeg, jpeg2000, numpy, png, tiff};
 
-/// A PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM file whose structure has been checked, and whose frames are decoded one by one.
+/// A PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM or NumPy file whose structure has been checked, and whose frames are decoded one by one.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -37,6 +37,7 @@ enum Content {
     Bmp((u32, u32)),
     Tiff { pages: Vec<tiff::Page> },
     Dicom(Box<Dicom>),
+    Numpy(numpy::Array),
 }
 
 impl<'a> FrameFile<'a> {
@@ -74,6 +75,7 @@ impl<'a> FrameFile<'a> {
             Content::Png(_) | Content::Jpeg(_) | Content::Jpeg2000(_) | Content::Bmp(_) => 1,
             Content::Tiff { pages } => pages.len(),
             Content::Dicom(dicom) => dicom.count(),
+            Content::Numpy(array) => array.count(),
         }
     }
 
@@ -106,6 +108,7 @@ impl<'a> FrameFile<'a> {
             | Content::Bmp(size) => Some(*size),
             Content::Tiff { pages } => Some(pages.get(index)?.size),
             Content::Dicom(dicom) => Some(dicom.size(index)),
+            Content::Numpy(array) => Some(array.size()),
         }
     }
 
@@ -129,6 +132,7 @@ impl<'a> FrameFile<'a> {
             Content::Bmp(_) => bmp::decode(&self.bytes),
             Content::Tiff { pages } => tiff::decode(&self.bytes, &pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
+            Content::Numpy(array) => Ok(array.frame(&self.bytes, index)),
         }
     }
 }
@@ -144,6 +148,7 @@ impl Content {
                 pages: tiff::pages(bytes)?,
             },
             Kind::Dicom => Self::Dicom(Box::new(Dicom::open(bytes)?)),
+            Kind::Numpy => Self::Numpy(numpy::Array::open(bytes)?),
             _ if bytes.is_empty() => return Err(Problem::Empty),
             other => {
                 return Err(Problem::NotAFrame {

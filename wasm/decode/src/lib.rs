@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! bytes --> sniff --> Kind
-//!       --> FrameFile::open --> frame(index) --> GreyFrame      PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM
+//!       --> FrameFile::open --> frame(index) --> GreyFrame      PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM, NumPy
 //!       --> decode_mask ------------------------> MaskImage     the same, one frame
 //!       --> decode_model -----------------------> Model         STL, OBJ, PLY
 //! ```
@@ -37,12 +37,14 @@ mod sniff;
 
 mod frame;
 mod luminance;
+mod numbers;
 mod shutter;
 
 mod bmp;
 mod dicom;
 mod jpeg;
 mod jpeg2000;
+mod numpy;
 mod png;
 mod tiff;
 

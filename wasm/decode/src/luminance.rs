@@ -23,6 +23,16 @@ pub(crate) fn luminance(red: u16, green: u16, blue: u16) -> u16 {
     ((sum + 500) / 1000) as u16
 }
 
+/// The same of numbers of any size.
+pub(crate) fn weighted(colours: [f64; 3]) -> f64 {
+    let weights = [RED, GREEN, BLUE].map(|weight| f64::from(weight) / 1000.0);
+    weights
+        .iter()
+        .zip(colours)
+        .map(|(weight, colour)| weight * colour)
+        .sum()
+}
+
 /// Interleaved 8-bit pixels of `channels` samples, of which the first three are red, green and blue, or the
 /// first is grey where there are fewer than three. Further samples (transparency) are left out.
 pub(crate) fn grey_from_u8(samples: &[u8], channels: usize) -> Vec<u8> {

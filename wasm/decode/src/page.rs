@@ -11,7 +11,7 @@ fn thrown(error: DecodeError) -> Error {
 }
 
 /// What a file is, by its beginning ([`SNIFFED`](crate::SNIFFED) bytes, or all of a shorter file) and its length in
-/// bytes: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
+/// bytes: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `numpy`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
 /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
 #[wasm_bindgen]
 pub fn sniff(head: &[u8], length: usize, name: &str) -> String {
@@ -45,7 +45,7 @@ impl PageFrameFile {
         self.0.count()
     }
 
-    /// The format: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp` or `dicom`.
+    /// The format: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom` or `numpy`.
     #[wasm_bindgen(getter)]
     pub fn kind(&self) -> String {
         self.0.kind().word().to_owned()

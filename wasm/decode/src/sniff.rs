@@ -21,6 +21,8 @@ pub enum Kind {
     Bmp,
     /// A DICOM object.
     Dicom,
+    /// A NumPy array.
+    Numpy,
     /// An STL model.
     Stl,
     /// A Wavefront OBJ model.
@@ -54,7 +56,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
+    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `numpy`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
     /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
@@ -64,6 +66,7 @@ impl Kind {
             Self::Tiff => "tiff",
             Self::Bmp => "bmp",
             Self::Dicom => "dicom",
+            Self::Numpy => "numpy",
             Self::Stl => "stl",
             Self::Obj => "obj",
             Self::Ply => "ply",
@@ -91,6 +94,7 @@ impl Kind {
             Self::Tiff => "a TIFF image",
             Self::Bmp => "a BMP image",
             Self::Dicom => "a DICOM file",
+            Self::Numpy => "a NumPy array",
             Self::Stl => "an STL model",
             Self::Obj => "an OBJ model",
             Self::Ply => "a PLY model",
@@ -123,7 +127,7 @@ const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POS
 const STUDY: &str = "[[component]]";
 
 /// First bytes that belong to one kind alone.
-const SIGNATURES: [(&[u8], Kind); 17] = [
+const SIGNATURES: [(&[u8], Kind); 18] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
     (&crate::jpeg2000::CODESTREAM, Kind::Jpeg2000),
@@ -132,6 +136,7 @@ const SIGNATURES: [(&[u8], Kind); 17] = [
     (b"MM\0*", Kind::Tiff),
     (b"II+\0", Kind::Tiff),
     (b"MM\0+", Kind::Tiff),
+    (crate::numpy::MARK, Kind::Numpy),
     (b"FLUOROPL", Kind::Library),
     (b"ply\n", Kind::Ply),
     (b"ply\r", Kind::Ply),
@@ -258,6 +263,7 @@ fn by_name(name: &str) -> Kind {
         Some("tif" | "tiff") => Kind::Tiff,
         Some("bmp" | "dib") => Kind::Bmp,
         Some("dcm" | "dicom") => Kind::Dicom,
+        Some("npy") => Kind::Numpy,
         Some("stl") => Kind::Stl,
         Some("obj") => Kind::Obj,
         Some("ply") => Kind::Ply,

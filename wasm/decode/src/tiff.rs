@@ -1,9 +1,9 @@
 //! TIFF: grey and palettes of 1 to 64 bits, colour of 8 bits and more, whole numbers and floating point; several pages.
 //!
 //! Pages without compression, and with deflate, LZW, PackBits, fax codes of groups 3 and 4 and JPEG. White-is-zero pages are returned with
-//! black at 0. Signed pixels are moved up by half their range. Floating point pixels, and whole numbers that do not fit 16
-//! bits, are mapped linearly from the page's own smallest and largest finite value to 0 and 65535 (NaN becomes 0), and the
-//! frame's notes say so. Palettes become luminance. Thumbnails (reduced pages) are left out.
+//! black at 0. Signed pixels are moved up by half their range. Pages of floating point or more than 16 bits with
+//! numbers that are not whole or do not fit 16 bits are mapped linearly from their own smallest and largest finite value to 0 and 65535 (NaN becomes
+//! 0), and the frame's notes say so. Palettes become luminance. Thumbnails (reduced pages) are left out.
 
 mod problem;
 

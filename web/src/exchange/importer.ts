@@ -203,12 +203,12 @@ export function masksBy<F extends Incoming>(files: readonly F[], looks: Readonly
 /** So many bytes of a PNG tell its size. */
 const HEAD = 33;
 
-/** By the beginning of a file and its length: a PNG of fewer bits a pixel than an X-ray ever packs to, or any TIFF. */
+/** By the beginning of a file and its length: a PNG of fewer bits a pixel than an X-ray ever packs to, or any TIFF or NumPy array. */
 export function mayBeMask(head: Uint8Array<ArrayBuffer>, length: number): boolean {
   const view = new DataView(head.buffer, head.byteOffset, head.byteLength);
   if (length < HEAD) return false;
   const first = view.getUint32(0);
-  if (first === 0x49492a00 || first === 0x4d4d002a) return true;
+  if (first === 0x49492a00 || first === 0x4d4d002a || first === 0x934e554d) return true;
   if (first !== 0x89504e47) return false;
   const pixels = view.getUint32(16) * view.getUint32(20);
   return length < MASK_OVERHEAD + pixels * MASK_BYTES;

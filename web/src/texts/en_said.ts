@@ -33,7 +33,7 @@ export const said = {
   nothingToRedo: 'There is nothing to do again.',
   clickTakenBack: 'The click is taken back; undo once more goes on before it.',
   notRecognised:
-    'not recognised; the page opens frames (PNG, JPEG, TIFF, BMP, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',
+    'not recognised; the page opens frames (PNG, JPEG, TIFF, BMP, DICOM, NumPy), models (STL, OBJ, PLY), calibrations, corrections of distortion, poses (.jts, .jtak, .jtap), libraries, sessions and videos',
   theCalibration: (name: string) => `the calibration ${name}`,
   asModel: (name: string, component: string) => `${name} as the model of the ${component}`,
   asLibrary: (name: string, component: string) => `${name} as the library of the ${component}`,

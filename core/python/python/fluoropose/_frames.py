@@ -14,7 +14,7 @@ from . import _checks, _native
 def read_frames(path: _checks.PathLike) -> NDArray[Any]:
     """The frames (frames, rows, columns) of a file, or of a folder's files in the order of their names: 8 or 16 bits.
 
-    PNG, JPEG, JPEG 2000, TIFF, BMP and DICOM, decoded as the command decodes them. All of them are in memory then; `track` takes the
+    PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM and NumPy arrays (`.npy`), decoded as the command decodes them. All of them are in memory then; `track` takes the
     folder itself and reads one at a time.
     """
     place = Path(_checks.path(path, "path"))

@@ -5,7 +5,8 @@ use tiff::decoder::DecodingResult;
 use super::problem::FORMAT;
 use crate::error::Problem;
 use crate::frame::Pixels;
-use crate::luminance::{grey_from_u8, grey_from_u16, luminance};
+use crate::luminance::{grey_from_u8, grey_from_u16, luminance, weighted};
+use crate::numbers::{Range, in_16_bits};
 
 /// How the samples of a page are stored.
 #[derive(Clone, Copy)]
@@ -97,32 +98,27 @@ pub(super) fn grey(
                 s.into_iter().map(|v| v.cast_unsigned() ^ 0x8000).collect(),
             ))
         }
-        (DecodingResult::U32(s), _) => whole(mixed(&s, layout, f64::from), notes),
-        (DecodingResult::U64(s), _) => whole(mixed(&s, layout, |v| v as f64), notes),
-        (DecodingResult::I32(s), _) => whole(mixed(&s, layout, f64::from), notes),
-        (DecodingResult::I64(s), _) => whole(mixed(&s, layout, |v| v as f64), notes),
-        (DecodingResult::F16(s), _) => {
-            floats(&mixed(&s, layout, f64::from), "Floating point", notes)
-        }
-        (DecodingResult::F32(s), _) => {
-            floats(&mixed(&s, layout, f64::from), "Floating point", notes)
-        }
-        (DecodingResult::F64(s), _) => floats(&mixed(&s, layout, |v| v), "Floating point", notes),
+        (DecodingResult::U32(s), _) => mixed(&s, layout, true, f64::from, notes),
+        (DecodingResult::U64(s), _) => mixed(&s, layout, true, |v| v as f64, notes),
+        (DecodingResult::I32(s), _) => mixed(&s, layout, true, f64::from, notes),
+        (DecodingResult::I64(s), _) => mixed(&s, layout, true, |v| v as f64, notes),
+        (DecodingResult::F16(s), _) => mixed(&s, layout, false, f64::from, notes),
+        (DecodingResult::F32(s), _) => mixed(&s, layout, false, f64::from, notes),
+        (DecodingResult::F64(s), _) => mixed(&s, layout, false, |v| v, notes),
     })
 }
 
 /// Greys, or the luminance of colours.
-fn mixed<T: Copy>(samples: &[T], layout: Layout, number: impl Fn(T) -> f64) -> Vec<f64> {
-    let weighted = |[r, g, b]: [T; 3]| 0.299 * number(r) + 0.587 * number(g) + 0.114 * number(b);
-    layout.pixels(samples, &number, weighted)
-}
-
-/// Whole numbers as they are where all fit 16 bits, else mapped.
-fn whole(values: Vec<f64>, notes: &mut Vec<String>) -> Pixels {
-    match values.iter().all(|v| (0.0..=65535.0).contains(v)) {
-        true => Pixels::U16(values.iter().map(|v| v.round() as u16).collect()),
-        false => floats(&values, "Whole", notes),
-    }
+fn mixed<T: Copy>(
+    samples: &[T],
+    layout: Layout,
+    are_whole: bool,
+    number: impl Fn(T) -> f64,
+    notes: &mut Vec<String>,
+) -> Pixels {
+    let values = layout.pixels(samples, &number, |colours| weighted(colours.map(&number)));
+    let range = Range::of(values.iter().copied(), are_whole);
+    in_16_bits(values.into_iter(), range, notes)
 }
 
 /// The numbers of a page of fewer than 8 bits.
@@ -149,30 +145,6 @@ fn spread(values: Vec<u8>, bits: u8) -> Vec<u8> {
         .into_iter()
         .map(|value| u16::from(value) * 255 / most);
     each.map(|value| value as u8).collect()
-}
-
-/// Maps smallest to largest finite value linearly onto 0 to 65535, and says so.
-fn floats(values: &[f64], kind: &str, notes: &mut Vec<String>) -> Pixels {
-    let finite = values.iter().filter(|v| v.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
-        (low.min(v), high.max(v))
-    });
-    let scale = match high > low {
-        // Halves first: the difference of two finite numbers may be infinite.
-        true => 65535.0 / 2.0 / (high / 2.0 - low / 2.0),
-        false => 0.0,
-    };
-    let kind = if kind == "Whole" {
-        "Whole numbers as"
-    } else {
-        kind
-    };
-    notes.push(format!(
-        "{kind} pixels from {low} to {high} were mapped linearly to 0 to 65535."
-    ));
-    // A float to integer cast saturates and takes NaN to 0.
-    let map = |v: &f64| ((v - low) * scale).round() as u16;
-    Pixels::U16(values.iter().map(map).collect())
 }
 
 /// The luminance of each colour whose number is stored; 8 bits where the palette has no more.

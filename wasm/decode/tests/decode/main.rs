@@ -12,6 +12,7 @@ mod jpeg;
 mod jpeg2000;
 mod masks;
 mod models;
+mod numpy;
 mod png;
 mod samples;
 mod sniffing;

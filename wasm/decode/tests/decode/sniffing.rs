@@ -19,6 +19,7 @@ fn content_decides_whatever_the_name() {
         (jpeg(8, 8, &[1; 64], false), Kind::Jpeg),
         (raw_tiff(&[], &[]), Kind::Tiff),
         (bmp::grey(2, 2, &[0; 4]), Kind::Bmp),
+        (b"\x93NUMPY\x01\0".to_vec(), Kind::Numpy),
         (
             Builder::image(EXPLICIT, 1, 1, 8, 1).octets(&[1]),
             Kind::Dicom,

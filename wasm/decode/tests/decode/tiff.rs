@@ -190,12 +190,14 @@ fn floating_point_is_mapped_and_the_frame_says_so() {
     assert_eq!(words_of(&frame), [0, 32768, 0, 49151, 65535]);
     assert_eq!(
         frame.notes,
-        ["Floating point pixels from -1 to 1 were mapped linearly to 0 to 65535."]
+        ["Pixels from -1 to 1 were mapped linearly to 0 to 65535."]
     );
-    let flat = page::<Gray32Float>(2, 1, &[3.0, 3.0]);
+    let flat = page::<Gray32Float>(2, 1, &[3.5, 3.5]);
     assert_eq!(words_of(&only_frame(&flat, "a.tif")), [0, 0]);
     let extreme = page::<Gray32Float>(3, 1, &[f32::MIN, f32::MAX, f32::INFINITY]);
     assert_eq!(words_of(&only_frame(&extreme, "a.tif")), [0, 65535, 65535]);
+    let whole = only_frame(&page::<Gray32Float>(2, 1, &[3.0, 65535.0]), "a.tif");
+    assert_eq!((words_of(&whole), whole.notes.len()), (vec![3, 65535], 0));
 }
 
 #[test]

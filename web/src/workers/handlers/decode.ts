@@ -118,6 +118,7 @@ function kindOf(word: string): FileKind {
     case 'tiff':
     case 'bmp':
     case 'dicom':
+    case 'numpy':
       return 'frames';
     case 'stl':
     case 'obj':

@@ -27,7 +27,7 @@ Example:\n  cargo xtask calibrate --grid plate.dcm --distortion plate.json --spa
 --out calibration.txt"
 )]
 pub struct Args {
-    /// Frame of the grid: PNG, JPEG, JPEG 2000, TIFF, BMP or DICOM
+    /// Frame of the grid: PNG, JPEG, JPEG 2000, TIFF, BMP, DICOM or a NumPy array
     #[arg(long)]
     grid: PathBuf,
     /// Which frame of the file, from 1

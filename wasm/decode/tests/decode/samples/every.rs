@@ -11,6 +11,7 @@ use super::dicom::{
     JPEG_LS, RLE, run_lengths,
 };
 use super::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
+use super::numpy::npy;
 use super::{
     big_tiff, bmp, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
     tiffs, tiled_tiff,
@@ -100,6 +101,8 @@ fn images() -> Vec<Sample> {
         ),
         sample("big.tif", big_tiff(12, 9, &pixels)),
         sample("grey.bmp", bmp::grey(12, 9, &pixels)),
+        sample("film.npy", npy("|u1", "False", "(3, 4, 9)", &pixels)),
+        sample("floats.npy", npy("<f2", "True", "(6, 9)", &pixels)),
     ]
 }
 

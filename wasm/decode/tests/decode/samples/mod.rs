@@ -7,6 +7,7 @@ pub(crate) mod foreign;
 pub(crate) mod jpeg2000;
 pub(crate) mod lossless;
 pub(crate) mod models;
+pub(crate) mod numpy;
 pub(crate) mod tiffs;
 
 use std::io::Cursor;
