@@ -3,10 +3,13 @@
 //! The form is that of `numpy.lib.format`, versions 1.0 to 3.0: a mark, a header that is a Python dictionary of type, order and shape, then the
 //! numbers. It is read here: the libraries for it bring a parser of all Python literals.
 
+mod problem;
+
 mod header;
 mod shape;
 
 use header::Header;
+use problem::{damaged, not_read};
 use shape::Shape;
 
 use crate::error::Problem;
@@ -14,8 +17,6 @@ use crate::frame::{GreyFrame, Pixels, checked_area};
 use crate::limits::MAX_FRAMES;
 use crate::luminance::weighted;
 use crate::numbers::{Range, in_16_bits};
-
-const FORMAT: &str = "NumPy";
 
 pub(crate) use header::MARK;
 
@@ -104,16 +105,4 @@ impl Array {
             self.header.number.is_whole(),
         )
     }
-}
-
-fn damaged(detail: &str) -> Problem {
-    Problem::damaged(FORMAT, detail)
-}
-
-fn not_read(detail: String) -> Problem {
-    Problem::unsupported(
-        FORMAT,
-        detail,
-        "Save frames as numbers of shape (rows, columns) or (frames, rows, columns)",
-    )
 }

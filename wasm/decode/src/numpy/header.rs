@@ -2,7 +2,7 @@
 
 use half::f16;
 
-use super::{damaged, not_read};
+use super::problem::{damaged, not_read};
 use crate::error::Problem;
 
 pub(crate) const MARK: &[u8] = b"\x93NUMPY";

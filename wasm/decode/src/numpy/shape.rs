@@ -1,6 +1,6 @@
 //! What the axes of an array are.
 
-use super::not_read;
+use super::problem::not_read;
 use crate::error::Problem;
 
 /// How many there are, and from one to the next, numbers.

@@ -44,7 +44,7 @@ fn images() -> Vec<Sample> {
     };
     let float = tiff(Compression::Lzw, |encoder| {
         encoder
-            .write_image::<Gray32Float>(2, 2, &[0.0, 1.0, 2.0, 3.0])
+            .write_image::<Gray32Float>(2, 2, &[0.0, 1.5, 2.0, 3.0])
             .unwrap();
     });
     let predicted = predicted_tiff(|encoder| encoder.write_image::<Gray8>(12, 9, &pixels).unwrap());
@@ -101,6 +101,12 @@ fn images() -> Vec<Sample> {
         ),
         sample("big.tif", big_tiff(12, 9, &pixels)),
         sample("grey.bmp", bmp::grey(12, 9, &pixels)),
+    ]
+}
+
+fn arrays() -> Vec<Sample> {
+    let pixels = pattern(12, 9);
+    vec![
         sample("film.npy", npy("|u1", "False", "(3, 4, 9)", &pixels)),
         sample("floats.npy", npy("<f2", "True", "(6, 9)", &pixels)),
     ]
@@ -249,6 +255,7 @@ fn models() -> Vec<Sample> {
 pub(crate) static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
     images()
         .into_iter()
+        .chain(arrays())
         .chain(dicoms())
         .chain(rare_dicoms())
         .chain(pages())

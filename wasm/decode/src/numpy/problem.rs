@@ -1,0 +1,17 @@
+//! What is wrong with an array.
+
+use crate::error::Problem;
+
+const FORMAT: &str = "NumPy";
+
+pub(super) fn damaged(detail: &str) -> Problem {
+    Problem::damaged(FORMAT, detail)
+}
+
+pub(super) fn not_read(detail: String) -> Problem {
+    Problem::unsupported(
+        FORMAT,
+        detail,
+        "Save frames as numbers of shape (rows, columns) or (frames, rows, columns)",
+    )
+}
