@@ -12,7 +12,7 @@ fn thrown(error: DecodeError) -> Error {
 
 /// What a file is, by its beginning ([`SNIFFED`](crate::SNIFFED) bytes, or all of a shorter file) and its length in
 /// bytes: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `numpy`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
-/// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
+/// `mayacam`, `library`, `session`, `outlines`, `coco`, `labelme`, `imagej`, `distortion`, `study`, `video`, `unknown`.
 #[wasm_bindgen]
 pub fn sniff(head: &[u8], length: usize, name: &str) -> String {
     crate::sniff_head(head, length, name).word().to_owned()

@@ -45,6 +45,10 @@ pub enum Kind {
     Outlines,
     /// Outlines in the form of the COCO data set.
     Coco,
+    /// Outlines in the form of labelme.
+    Labelme,
+    /// A region of ImageJ, or several in a zip.
+    Imagej,
     /// A correction of distortion.
     Distortion,
     /// A study: which files belong together, and what is known of them.
@@ -57,7 +61,7 @@ pub enum Kind {
 
 impl Kind {
     /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `bmp`, `dicom`, `numpy`, `stl`, `obj`, `ply`, `other-model`, `jts`, `calibration`,
-    /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
+    /// `mayacam`, `library`, `session`, `outlines`, `coco`, `labelme`, `imagej`, `distortion`, `study`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -78,6 +82,8 @@ impl Kind {
             Self::Session => "session",
             Self::Outlines => "outlines",
             Self::Coco => "coco",
+            Self::Labelme => "labelme",
+            Self::Imagej => "imagej",
             Self::Distortion => "distortion",
             Self::Study => "study",
             Self::Video => "video",
@@ -106,6 +112,8 @@ impl Kind {
             Self::Session => "a saved session",
             Self::Outlines => "a file of outlines",
             Self::Coco => "outlines in COCO form",
+            Self::Labelme => "outlines of labelme",
+            Self::Imagej => "regions of ImageJ",
             Self::Distortion => "a correction of distortion",
             Self::Study => "a study",
             Self::Video => "a video",
@@ -120,6 +128,9 @@ pub const SNIFFED: usize = 64 << 10;
 /// Any of these stands near the beginning of a COCO file, in whatever order it lists its parts.
 const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""];
 
+/// The first stands near the beginning of a file of labelme, and one of the others behind it.
+const LABELME_WORDS: (&str, [&str; 2]) = ("\"shapes\"", ["\"shape_type\"", "\"imagePath\""]);
+
 /// First lines of files of poses.
 const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POSE"];
 
@@ -127,7 +138,7 @@ const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POS
 const STUDY: &str = "[[component]]";
 
 /// First bytes that belong to one kind alone.
-const SIGNATURES: [(&[u8], Kind); 18] = [
+const SIGNATURES: [(&[u8], Kind); 19] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
     (&crate::jpeg2000::CODESTREAM, Kind::Jpeg2000),
@@ -141,6 +152,7 @@ const SIGNATURES: [(&[u8], Kind); 18] = [
     (b"ply\n", Kind::Ply),
     (b"ply\r", Kind::Ply),
     (b"JT_INTCALIB", Kind::Calibration),
+    (b"Iout", Kind::Imagej),
     // STEP, Parasolid, glTF, VTK, OFF.
     (b"ISO-10303-21", Kind::OtherModel),
     (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", Kind::OtherModel),
@@ -184,6 +196,9 @@ fn by_content(bytes: &[u8], length: usize) -> Option<Kind> {
     if is_video(bytes) {
         return Some(Kind::Video);
     }
+    if is_zip_of_regions(bytes) {
+        return Some(Kind::Imagej);
+    }
     if stl_form::is_binary(bytes, length) {
         return Some(Kind::Stl);
     }
@@ -198,6 +213,17 @@ fn is_bmp(bytes: &[u8]) -> bool {
     let header = bytes.get(14..).and_then(<[u8]>::first_chunk::<4>);
     bytes.starts_with(b"BM")
         && header.is_some_and(|&four| (12..=124).contains(&u32::from_le_bytes(four)))
+}
+
+/// By the name of the first file in it, behind a header of a fixed length.
+fn is_zip_of_regions(bytes: &[u8]) -> bool {
+    const NAME_LENGTH: usize = 26;
+    const NAME: usize = 30;
+    let length = bytes.get(NAME_LENGTH..).and_then(<[u8]>::first_chunk);
+    let length = length.map_or(0, |&two| u16::from_le_bytes(two).into());
+    let name = bytes.get(NAME..).and_then(|rest| rest.get(..length));
+    bytes.starts_with(b"PK\x03\x04")
+        && name.is_some_and(|name| name.to_ascii_lowercase().ends_with(b".roi"))
 }
 
 /// First bytes of Matroska and WebM, MPEG, Windows Media; then the forms that begin with a length: MP4 and QuickTime
@@ -233,6 +259,8 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
         Some(Kind::Distortion)
     } else if text.starts_with('{') && COCO_WORDS.iter().any(|word| text.contains(word)) {
         Some(Kind::Coco)
+    } else if text.starts_with('{') && is_labelme(text) {
+        Some(Kind::Labelme)
     } else if text.lines().any(|line| line.trim_end() == STUDY) {
         Some(Kind::Study)
     } else if stl_form::is_ascii(bytes) {
@@ -244,6 +272,11 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
     } else {
         None
     }
+}
+
+fn is_labelme(text: &str) -> bool {
+    let (first, others) = LABELME_WORDS;
+    text.contains(first) && others.iter().any(|word| text.contains(word))
 }
 
 /// A vertex line: `v` and at least three numbers.

@@ -26,7 +26,7 @@ export type FrameMatching = 'name' | 'order';
 export interface ProposedItem {
   /** As the person knows it: file, page, annotation. */
   readonly label: string;
-  /** Name of the image it was drawn on, as far as the file tells. */
+  /** Name of the image it was drawn on, as far as the file tells; empty where that has none. */
   readonly image: string;
   /** Place among the images of its subject, from 0. */
   readonly order: number;
@@ -40,6 +40,12 @@ export interface ProposedItem {
   readonly exactOutline: Outline | null;
   /** What was done on the way from a mask: specks, holes. */
   readonly notes: readonly string[];
+}
+
+/** What a file of outlines holds, and sentences about what of it is not read. */
+export interface ReadOutlines {
+  readonly items: readonly ProposedItem[];
+  readonly remarks: readonly string[];
 }
 
 export function isOfMask({ exactOutline }: ProposedItem): boolean {
@@ -120,8 +126,9 @@ function lastNumber(stem: string): number | null {
   return digits === undefined ? null : Number(digits);
 }
 
-/** By order where no image has the name of a frame and there are as many of one as of the other, else by name. */
+/** By order where no image has a name, or none the name of a frame and there are as many of one as of the other; else by name. */
 export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): FrameMatching {
+  if (items.every(({ image }) => image === '')) return 'order';
   if (items.some((item) => frameOf(doc, item, 'name') >= 0)) return 'name';
   const most = Math.max(0, ...items.map(({ order }) => order + 1));
   return most === doc.frames.length ? 'order' : 'name';

@@ -1,13 +1,14 @@
 import { framePoint } from '../geometry/points';
 import { parse } from './outline_file';
-import type { ProposedItem } from '../document/proposal';
+import type { ProposedItem, ReadOutlines } from '../document/proposal';
 import { count, list, missingAs, number, object, ReadError, text, type Reader } from '../document/reader';
 import { cellOf, type Doc, type Outline } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
+import { type Runs, runsOf } from './runs';
 
 /**
  * Outlines in the form of the COCO data set (object detection): images, categories, and annotations whose segmentation
- * is a list of polygons. COCO's coordinates are ours: the first pixel covers [0, 1) x [0, 1), y grows downwards.
+ * is a list of polygons, or a mask in run lengths. COCO's coordinates are ours: the first pixel covers [0, 1) x [0, 1), y grows downwards.
  * What a polygon cannot say (drafts, unknown sides) is left out of what is written, and told.
  */
 interface Coco {
@@ -51,52 +52,58 @@ function shapeOf({ points }: Outline): object {
   return { segmentation, area: areaOf(segmentation[0]!), bbox: box, iscrowd: 0 };
 }
 
-/** Items for a proposal, and sentences about annotations that are no polygons. */
-export function readCoco(json: string): { readonly items: readonly ProposedItem[]; readonly remarks: readonly string[] } {
+/** An item whose outline is still to be found around a mask. */
+export interface ProposedRuns {
+  readonly item: Omit<ProposedItem, 'outline' | 'exactOutline' | 'notes'>;
+  readonly runs: Runs;
+}
+
+/** Items for a proposal, masks for others, and sentences about annotations that are neither. */
+export function readCoco(json: string): ReadOutlines & { readonly masks: readonly ProposedRuns[] } {
   const { images, categories, annotations } = readFile(parse(json), 'file');
   const imageOf = new Map(images.map((image, order) => [image.id, { image, order }]));
   const nameOf = new Map(categories.map(({ id, name }) => [id, name]));
   const items: ProposedItem[] = [];
+  const masks: ProposedRuns[] = [];
   const remarks: string[] = [];
   for (const annotation of annotations) {
     const found = imageOf.get(annotation.image_id);
     const subject = nameOf.get(annotation.category_id);
-    const polygons = polygonsOf(annotation.segmentation);
+    const [polygons, runs] = [polygonsOf(annotation.segmentation), runsOf(annotation.segmentation)];
     if (!found) remarks.push(`annotation ${annotation.id} is of image ${annotation.image_id}, which the file does not list`);
     else if (subject === undefined) remarks.push(`annotation ${annotation.id} is of category ${annotation.category_id}, which the file does not list`);
-    else if (polygons === 'runs') remarks.push(`annotation ${annotation.id} (${found.image.file_name}) is run-length encoded: export it as polygons, or as a mask`);
-    else if (polygons === null) remarks.push(`annotation ${annotation.id} (${found.image.file_name}) has no polygon of three points or more`);
-    else items.push(itemOf(annotation, found.image, found.order, subject, polygons));
+    else if (runs !== null) masks.push({ item: { ...placeOf(annotation, found.image, found.order, subject), size: { width: runs.width, height: runs.height } }, runs });
+    else if (polygons === null) remarks.push(`annotation ${annotation.id} (${found.image.file_name}) has ${Array.isArray(annotation.segmentation) ? 'no polygon of three points or more' : 'run lengths that do not fill its image'}`);
+    else items.push(itemOf(placeOf(annotation, found.image, found.order, subject), polygons));
   }
-  return { items: largestFirst(items), remarks };
+  return { items: largestFirst(items), masks, remarks };
 }
 
-function itemOf(annotation: CocoAnnotation, image: CocoImage, order: number, subject: string, polygons: readonly number[][]): ProposedItem {
+function placeOf({ id }: CocoAnnotation, { file_name: image, width, height }: CocoImage, order: number, subject: string): ProposedRuns['item'] {
+  const size = width > 0 && height > 0 ? { width, height } : null;
+  return { label: `${image}, ${subject} (annotation ${id})`, image, order, frameId: null, subject, size };
+}
+
+function itemOf(place: ProposedRuns['item'], polygons: readonly number[][]): ProposedItem {
   const largest = polygons.reduce((best, polygon) => (areaOf(polygon) > areaOf(best) ? polygon : best));
-  const { width, height } = image;
   const others = polygons.length - 1;
   return {
-    label: `${image.file_name}, ${subject} (annotation ${annotation.id})`,
-    image: image.file_name,
-    order,
-    frameId: null,
-    subject,
-    size: width > 0 && height > 0 ? { width, height } : null,
+    ...place,
     outline: { points: pairs(withoutClosingPoint(largest)), closed: true, unknownSides: [] },
     exactOutline: null,
     notes: others === 0 ? [] : [`${others} smaller ${others === 1 ? 'polygon' : 'polygons'} left out`],
   };
 }
 
-/** Of several annotations for one cell the first is taken: let that be the largest. */
-function largestFirst(items: readonly ProposedItem[]): readonly ProposedItem[] {
+/** Of several outlines for one cell the first is taken: let that be the largest. */
+export function largestFirst(items: readonly ProposedItem[]): readonly ProposedItem[] {
   const area = ({ outline }: ProposedItem) => areaOf(outline.points.flatMap(({ column, row }) => [column, row]));
   return [...items].sort((a, b) => a.order - b.order || area(b) - area(a));
 }
 
 /** Null where there is no polygon. */
-function polygonsOf(segmentation: unknown): readonly number[][] | 'runs' | null {
-  if (!Array.isArray(segmentation)) return typeof segmentation === 'object' && segmentation !== null ? 'runs' : null;
+function polygonsOf(segmentation: unknown): readonly number[][] | null {
+  if (!Array.isArray(segmentation)) return null;
   const polygons = segmentation.filter(
     (polygon): polygon is number[] =>
       Array.isArray(polygon) && polygon.length >= 6 && polygon.length % 2 === 0 && polygon.every((value) => Number.isFinite(value)),

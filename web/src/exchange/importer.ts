@@ -1,27 +1,21 @@
-import { readCoco } from './coco';
-import { readOutlines } from './outline_file';
+import { itemOfMask, type OutlineKind, readOutlineFiles, TOLERANCE } from './outline_readers';
 import { componentNamed, likelyMatch, type ProposedItem } from '../document/proposal';
-import type { Outline } from '../document/types';
 import type { ComponentName } from '../terms/component';
-import { framePoint } from '../geometry/points';
 import { later } from '../texts/later';
 import { Aborted } from '../workers/bridge';
-import { bytesOf, type Incoming, textOf } from './incoming';
+import { bytesOf, type Incoming } from './incoming';
 import { byName } from './name_order';
 import { pathOf } from './paths';
 import { lookedAt } from './reading';
 import type { Store } from '../document/store';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
-import type { MaskLabel, MaskLook, MaskPage } from '../workers/protocol/masks';
+import type { MaskLook, MaskPage } from '../workers/protocol/masks';
 
 /** Files of outlines, as they were recognised. */
 export interface OutlineFile extends Incoming {
-  readonly kind: 'mask' | 'outlines' | 'coco';
+  readonly kind: 'mask' | OutlineKind;
 }
-
-/** How far a simplified outline may leave the middle of a mask's border, px: less than the border is known by. */
-const TOLERANCE = 0.4;
 
 /**
  * Reads outlines and masks and shows which frame and component each would be for; nothing of the document changes
@@ -31,16 +25,9 @@ export async function propose(services: Services, files: readonly OutlineFile[],
   const { store } = services;
   const items: ProposedItem[] = [];
   const remarks: string[] = [];
-  const failed = (file: Incoming, error: unknown) => remarks.push(`${file.name}: ${sentenceOf(error)}`);
-  for (const file of files.filter(({ kind }) => kind !== 'mask')) {
-    try {
-      const read = await readText(file);
-      items.push(...read.items);
-      remarks.push(...read.remarks.map((remark) => `${file.name}: ${remark}`));
-    } catch (error) {
-      failed(file, error);
-    }
-  }
+  const read = await readOutlineFiles(files.flatMap(({ kind, ...file }) => (kind === 'mask' ? [] : [{ ...file, kind }])));
+  items.push(...read.items);
+  remarks.push(...read.remarks);
   const masks = files.filter(({ kind }) => kind === 'mask').sort((a, b) => byName(pathOf(a), pathOf(b)));
   items.push(...(await readMasks(services, masks, remarks)));
   if (items.length === 0) {
@@ -53,11 +40,6 @@ export async function propose(services: Services, files: readonly OutlineFile[],
     proposal: { items, subjects: subjectsOf(items, store.ui.component), match, exact: false, onFrames: true, asFrames, remarks },
     popover: 'import',
   });
-}
-
-async function readText(file: OutlineFile): Promise<ReturnType<typeof readCoco>> {
-  const json = await textOf(file);
-  return file.kind === 'coco' ? readCoco(json) : { items: readOutlines(json), remarks: [] };
 }
 
 /** By name; where there is but one subject and its name says nothing, it is the component that is selected. */
@@ -117,17 +99,9 @@ function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPa
       const order = places.get(subject) ?? 0;
       places.set(subject, order + 1);
       const { width, height } = page;
-      return {
-        label: several ? `${pathOf(file)}, ${subject}` : pathOf(file),
-        image: name,
-        order,
-        frameId: null,
-        subject,
-        size: { width, height },
-        outline: closed(label.points),
-        exactOutline: closed(label.exact),
-        notes: notesOf(label),
-      };
+      // With its page, where there are several.
+      const path = pathOf(file) + name.slice(file.name.length);
+      return itemOfMask({ label: several ? `${path}, ${subject}` : path, image: name, order, frameId: null, subject, size: { width, height } }, label);
     });
   });
 }
@@ -148,21 +122,6 @@ function subjectsByFolder(paths: readonly string[]): (path: string) => string {
     const tells = componentNamed(folder) === component && (folders.get(component)?.size ?? 0) > 1;
     return tells ? folder : component;
   };
-}
-
-function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
-  const { exchange } = later;
-  const fraction = (100 * differing) / Math.max(1, area);
-  return [
-    specks > 0 ? exchange.specks(specks) : null,
-    holes > 0 ? exchange.holes(holes) : null,
-    fraction >= 0.5 ? exchange.differing(fraction.toFixed(1)) : null,
-  ].filter((note) => note !== null);
-}
-
-function closed(numbers: Float64Array): Outline {
-  const points = Array.from({ length: numbers.length / 2 }, (_, at) => framePoint(numbers[2 * at]!, numbers[2 * at + 1]!));
-  return { points, closed: true, unknownSides: [] };
 }
 
 // --- Recognising --------------------------------------------------------------------------------------------------

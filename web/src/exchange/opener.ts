@@ -180,7 +180,7 @@ export function statesSomething(stated: StatedGeometry | null): number {
 async function outlineFiles({ store }: Services, files: readonly Recognised[], news: string[]): Promise<readonly OutlineFile[]> {
   const told = files.flatMap((file): OutlineFile[] => {
     const { kind } = file;
-    return kind === 'outlines' || kind === 'coco' ? [{ ...file, kind }] : [];
+    return kind === 'outlines' || kind === 'coco' || kind === 'labelme' || kind === 'imagej' ? [{ ...file, kind }] : [];
   });
   const images = files.filter(({ kind }) => kind === 'frames');
   if (images.length === 0) return told;
@@ -219,7 +219,7 @@ function openAsFrames(services: Services, files: readonly Incoming[]): Promise<b
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
 const ORDER: readonly FileKind[] = [
-  'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'other-model', 'unknown',
+  'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'labelme', 'imagej', 'video', 'other-model', 'unknown',
 ];
 
 /** So many sentences of what failed fit the line, which shows one notice; the list of messages has them all. */

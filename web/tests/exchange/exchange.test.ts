@@ -112,8 +112,8 @@ describe('COCO', () => {
       ]),
     );
     expect(items).toEqual([]);
-    expect(remarks.map((remark) => /^annotation (\d).*(run-length|does not list|no polygon)/.exec(remark)?.slice(1).join(' '))).toEqual([
-      '1 run-length',
+    expect(remarks.map((remark) => /^annotation (\d).*(run lengths|does not list|no polygon)/.exec(remark)?.slice(1).join(' '))).toEqual([
+      '1 run lengths',
       '2 does not list',
       '3 does not list',
       '4 no polygon',

@@ -17,6 +17,25 @@ fn an_array_is_told_by_its_mark() {
 }
 
 #[test]
+fn outlines_of_other_programs_are_told_by_what_stands_in_them() {
+    let labelme = "{\"version\": \"5.4.1\", \"shapes\": [], \"imagePath\": \"a.png\"}";
+    assert_eq!(sniff(labelme.as_bytes(), "a.json"), Kind::Labelme);
+    assert_eq!(sniff(b"{\"shapes\": []}", "a.json"), Kind::Unknown);
+    assert_eq!(sniff(b"Iout\0\xE5\0\0", "a.roi"), Kind::Imagej);
+    let zip = |name: &str| {
+        let mut zip = b"PK\x03\x04".to_vec();
+        zip.extend([0; 22]);
+        zip.extend((name.len() as u16).to_le_bytes());
+        zip.extend([0; 2]);
+        zip.extend(name.bytes());
+        zip
+    };
+    assert_eq!(sniff(&zip("0001-0020-0030.roi"), "a.zip"), Kind::Imagej);
+    assert_eq!(sniff(&zip("notes.txt"), "a.zip"), Kind::Unknown);
+    assert_eq!(sniff(&zip("a.roi")[..33], "a.zip"), Kind::Unknown);
+}
+
+#[test]
 fn content_decides_whatever_the_name() {
     use png::{BitDepth::Eight, ColorType::Grayscale};
     let cases: Vec<(Vec<u8>, Kind)> = vec![

@@ -133,6 +133,8 @@ function kindOf(word: string): FileKind {
     case 'session':
     case 'outlines':
     case 'coco':
+    case 'labelme':
+    case 'imagej':
     case 'distortion':
     case 'study':
     case 'video':

@@ -29,6 +29,11 @@ serve<MasksProtocol>({
       file.free();
     }
   },
+  trace: async ({ inside, width, height, tolerance }) => {
+    await ready;
+    if (!inside.includes(1)) return null;
+    return using(imageOf({ pixels: inside, width, height }), (page) => labelOf(page, 1, tolerance));
+  },
   write: async ({ masks }, context) => {
     await ready;
     const files: Zippable = {};

@@ -43,7 +43,7 @@ export interface ShapeFacts {
   readonly remarks: readonly string[];
 }
 
-export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'study' | 'video' | 'other-model' | 'unknown';
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'labelme' | 'imagej' | 'distortion' | 'study' | 'video' | 'other-model' | 'unknown';
 
 export interface DecodeProtocol {
   /** By the file's beginning and its length, bytes. */

@@ -7,6 +7,8 @@ export interface MasksProtocol {
     output: readonly MaskPage[];
     progress: { readonly done: number; readonly total: number };
   };
+  /** The outline of a mask, 1 inside, row by row; null where nothing is. */
+  trace: { input: { inside: Uint8Array<ArrayBuffer>; width: number; height: number; tolerance: number }; output: MaskLabel | null; progress: never };
   /** One PNG for each outline, in a zip. */
   write: {
     input: { readonly masks: readonly MaskToWrite[] };
