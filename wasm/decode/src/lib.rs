@@ -63,7 +63,9 @@ pub use encode::encode_mask;
 pub use error::{DecodeError, Problem};
 pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
-pub use mask::{MaskImage, MaskRule, decode_mask, decode_mask_by, graded_mask, mask_of};
+pub use mask::{
+    MaskImage, MaskRule, decode_mask, decode_mask_by, decode_masks, graded_mask, mask_of,
+};
 pub use model::{Model, decode_model};
 pub use names::{gaps_among, name_order};
 pub use shutter::{MAX_CORNERS, Shutter};

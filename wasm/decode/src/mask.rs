@@ -1,9 +1,11 @@
 //! Mask images: which pixels belong to the implant.
 
+use std::slice;
+
 use crate::error::{DecodeError, Problem};
-use crate::file::FrameFile;
+use crate::file::{FrameFile, decode_frames};
 use crate::frame::{GreyFrame, Pixels};
-use crate::sniff::Kind;
+use crate::sniff::{Kind, sniff};
 
 /// A mask of one byte a pixel.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,36 +47,55 @@ const GRADED: usize = 8;
 /// [`DecodeError`] if the file is not an image, is damaged, too large, or holds more than one frame.
 pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
     let frame = only_frame(bytes, name)?;
-    let rule = match crate::sniff::sniff(bytes, name) {
-        Kind::Jpeg => MaskRule::AtLeast(128),
-        _ => rule_of(&frame),
-    };
+    let rule = rule_for(slice::from_ref(&frame), sniff(bytes, name));
     Ok(mask_of(&frame, rule))
 }
 
-/// The rule for the values of a mask that no coding has changed.
-fn rule_of(frame: &GreyFrame) -> MaskRule {
-    let (most, grades) = match &frame.pixels {
-        Pixels::U8(p) => grades(p),
-        Pixels::U16(p) => grades(p),
-    };
-    match grades < GRADED {
+/// All masks of a file, which may hold those of a film. What is inside is decided over all of them: one that shows no implant has small values alone.
+///
+/// # Errors
+/// Those of [`decode_frames`].
+pub fn decode_masks(bytes: &[u8], name: &str) -> Result<Vec<MaskImage>, DecodeError> {
+    let frames = decode_frames(bytes, name)?;
+    let rule = rule_for(&frames, sniff(bytes, name));
+    Ok(frames.iter().map(|frame| mask_of(frame, rule)).collect())
+}
+
+fn rule_for(frames: &[GreyFrame], kind: Kind) -> MaskRule {
+    match kind {
+        Kind::Jpeg => MaskRule::AtLeast(128),
+        _ => rule_of(frames),
+    }
+}
+
+/// The rule for the values of masks that no coding has changed.
+fn rule_of(frames: &[GreyFrame]) -> MaskRule {
+    let each = frames.iter().map(|frame| match &frame.pixels {
+        Pixels::U8(p) => p.iter().copied().max().map(u16::from),
+        Pixels::U16(p) => p.iter().copied().max(),
+    });
+    let most = each.flatten().max().unwrap_or(0);
+    let mut seen = [false; GRADES];
+    for frame in frames {
+        match &frame.pixels {
+            Pixels::U8(p) => see_grades(p, most, &mut seen),
+            Pixels::U16(p) => see_grades(p, most, &mut seen),
+        }
+    }
+    match seen.iter().filter(|&&seen| seen).count() < GRADED {
         true => MaskRule::NonZero,
         false => MaskRule::AtLeast(most.div_ceil(2)),
     }
 }
 
-/// The largest value, and how many parts of it occur between 0 and it.
-fn grades<T: Copy + Into<u16>>(pixels: &[T]) -> (u16, usize) {
-    let most = pixels.iter().map(|&v| v.into()).max().unwrap_or(0);
-    let mut seen = [false; GRADES];
+/// Which parts of the largest value occur between 0 and it.
+fn see_grades<T: Copy + Into<u16>>(pixels: &[T], most: u16, seen: &mut [bool; GRADES]) {
     for value in pixels.iter().map(|&v| v.into()) {
         if value > 0 && value < most {
             let grade = usize::from(value) * GRADES / usize::from(most);
             seen[grade.min(GRADES - 1)] = true;
         }
     }
-    (most, seen.iter().filter(|&&seen| seen).count())
 }
 
 /// Nearer to 0 or to the largest value than this part of it a grade is as good as decided.
@@ -87,7 +108,7 @@ const LEAST_DECIDED: f64 = 0.001;
 /// A picture read as the mask of graded values that it seems to be: nearly all of them lie near 0 or near the largest. `None` where it seems to be a
 /// picture of something, or a mask of few values, which needs no such reading.
 pub fn graded_mask(frame: &GreyFrame) -> Option<MaskImage> {
-    let rule = rule_of(frame);
+    let rule = rule_of(slice::from_ref(frame));
     let MaskRule::AtLeast(least) = rule else {
         return None;
     };

@@ -28,7 +28,7 @@ pub use fluoropose_decode::name_order;
 pub use found_with::FoundWith;
 pub use frames::{Frames, grey, other_count, reduced, stated_frames_per_s};
 pub use listing::{files_in, gaps_in, is_of_system};
-pub use mask::read_mask;
+pub use mask::{read_mask, read_masks};
 pub use model::{
     Unit, other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,

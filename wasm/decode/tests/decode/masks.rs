@@ -1,9 +1,11 @@
 use fluoropose_decode::{
-    FrameFile, MaskRule, Problem, decode_mask, decode_mask_by, encode_mask, graded_mask,
+    FrameFile, MaskRule, Problem, decode_mask, decode_mask_by, decode_masks, encode_mask,
+    graded_mask,
 };
 use png::{BitDepth, ColorType};
 use tiff::encoder::{Compression, colortype::Gray8};
 
+use crate::samples::numpy::npy;
 use crate::samples::{jpeg, png, tiff};
 
 #[test]
@@ -134,4 +136,23 @@ fn a_written_mask_is_read_back() {
 fn too_few_pixels_are_refused() {
     let sentence = encode_mask(vec![1, 0, 1], 2, 2).unwrap_err().to_string();
     assert!(sentence.contains("3 pixels for 2 x 2"), "{sentence}");
+}
+
+/// Of a film the frames without an implant hold what a network is nearly sure of not being one.
+#[test]
+fn a_film_of_masks_has_one_rule() {
+    let shown: Vec<f32> = (0..=20u8).map(|part| f32::from(part) / 20.0).collect();
+    let not_shown = vec![0.02; 21];
+    let bytes: Vec<u8> = [shown, not_shown]
+        .concat()
+        .iter()
+        .flat_map(|n| n.to_le_bytes())
+        .collect();
+    let masks = decode_masks(&npy("<f4", "False", "(2, 3, 7)", &bytes), "m.npy").unwrap();
+    assert_eq!([masks[0].area(), masks[1].area()], [11, 0]);
+    let alone = png(4, 1, ColorType::Grayscale, BitDepth::Eight, &[0, 1, 2, 255]);
+    assert_eq!(
+        decode_masks(&alone, "m.png").unwrap(),
+        [decode_mask(&alone, "m.png").unwrap()]
+    );
 }

@@ -1,9 +1,9 @@
 //! Silhouettes from files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use fluoropose_decode::{FrameFile, Pixels, decode_mask};
+use fluoropose_decode::{FrameFile, Pixels, decode_masks};
 use fluoropose_noise::MaskBuffer;
 
 use super::text::read;
@@ -58,16 +58,41 @@ fn labels(pixels: &Pixels) -> Option<[u16; 2]> {
 /// Reads a mask image.
 ///
 /// # Errors
-/// Names the file and what is wrong with it; a grey picture is none, nor are labels of several things.
+/// Names the file and what is wrong with it; a grey picture is none, nor are labels of several things, nor several masks.
 pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
-    let (bytes, name) = (read(path)?, path.display().to_string());
-    let file = FrameFile::open(bytes.as_slice(), &name)?;
-    if file.count() == 1 {
-        check_is_mask(&file.frame(0)?.pixels, &name)?;
+    let mut masks = read_masks(path)?;
+    match (masks.pop(), masks.len()) {
+        (Some((_, mask)), 0) => Ok(mask),
+        (_, others) => bail!(
+            "{} holds {} masks, and one is wanted here",
+            path.display(),
+            others + 1
+        ),
     }
-    let image = decode_mask(&bytes, &name)?;
-    let (width, height) = (image.width as usize, image.height as usize);
-    MaskBuffer::of_pixels(&image.pixels, width, height)
+}
+
+/// Reads all masks of a file, which may hold those of a film, each with its name.
+///
+/// # Errors
+/// Those of [`read_mask`], of any of them.
+pub fn read_masks(path: &Path) -> Result<Vec<(PathBuf, MaskBuffer)>> {
+    let (bytes, file) = (read(path)?, path.display().to_string());
+    let frames = FrameFile::open(bytes.as_slice(), &file)?;
+    let count = frames.count();
+    let name = |index: usize| match count {
+        1 => file.clone(),
+        _ => format!("{file} #{}", index + 1),
+    };
+    for index in 0..count {
+        check_is_mask(&frames.frame(index)?.pixels, &name(index))?;
+    }
+    let images = decode_masks(&bytes, &file)?.into_iter().enumerate();
+    let masks = images.map(|(index, image)| {
+        let (width, height) = (image.width as usize, image.height as usize);
+        let mask = MaskBuffer::of_pixels(&image.pixels, width, height)?;
+        Ok((name(index).into(), mask))
+    });
+    masks.collect()
 }
 
 fn check_is_mask(pixels: &Pixels, name: &str) -> Result<()> {

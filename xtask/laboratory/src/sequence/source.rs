@@ -12,7 +12,8 @@ use rayon::prelude::*;
 
 use super::seen::Seen;
 use crate::files::{
-    Frames, MaskBuffer, camera_of_frames, doubt_beside, files_in, gaps_in, grey, read_mask, reduced,
+    Frames, MaskBuffer, camera_of_frames, doubt_beside, files_in, gaps_in, grey, read_masks,
+    reduced,
 };
 use crate::noise::{DisturbanceOptions, Disturbed};
 
@@ -26,15 +27,17 @@ pub struct InMemory {
     pub frames: Option<Vec<GreyFrame>>,
 }
 
-/// Reads a mask and drops its specks ([`MaskBuffer::drop_specks`]), which is said on standard
+/// Reads the masks of a file and drops their specks ([`MaskBuffer::drop_specks`]), which is said on standard
 /// error.
-fn read_whole(path: &Path) -> Result<MaskBuffer> {
-    let mut mask = read_mask(path)?;
-    let dropped = mask.drop_specks()?;
-    if dropped > 0 {
-        eprintln!("{}: {dropped} pixels of specks left out", path.display());
+fn read_whole(path: &Path) -> Result<Vec<(PathBuf, MaskBuffer)>> {
+    let mut masks = read_masks(path)?;
+    for (name, mask) in &mut masks {
+        let dropped = mask.drop_specks()?;
+        if dropped > 0 {
+            eprintln!("{}: {dropped} pixels of specks left out", name.display());
+        }
     }
-    Ok(mask)
+    Ok(masks)
 }
 
 /// The folders of a sequence; the order of names is that of the frames in each.
@@ -72,9 +75,10 @@ impl Source {
             eprintln!("{}: {gaps}", folders.masks.display());
         }
         let masks: Vec<_> = files
-            .into_par_iter()
-            .map(|path| read_whole(&path).map(|mask| (path, mask)))
+            .par_iter()
+            .map(|path| read_whole(path))
             .collect::<Result<_>>()?;
+        let masks: Vec<_> = masks.into_iter().flatten().collect();
         let (_, first) = masks.first().context("a folder of masks is never empty")?;
         let size = (first.mask().width(), first.mask().height());
         for (path, mask) in &masks {
@@ -235,19 +239,23 @@ fn inverted(masks: &[(PathBuf, MaskBuffer)]) -> Option<String> {
 
 fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec<MaskBuffer>> {
     let files = files_in(folder)?;
-    if files.len() != count {
+    let read: Vec<_> = files
+        .iter()
+        .map(|path| read_masks(path))
+        .collect::<Result<_>>()?;
+    let masks: Vec<_> = read.into_iter().flatten().collect();
+    if masks.len() != count {
         bail!(
             "{} holds {} masks of unknown pixels but there are {count} masks; each needs its own",
             folder.display(),
-            files.len()
+            masks.len()
         );
     }
-    let read = |path: &PathBuf| {
-        let mask = read_mask(path)?;
-        check_size(path, &mask, size)?;
+    let checked = masks.into_iter().map(|(path, mask)| {
+        check_size(&path, &mask, size)?;
         Ok(mask)
-    };
-    files.iter().map(read).collect()
+    });
+    checked.collect()
 }
 
 fn check_size(path: &Path, mask: &MaskBuffer, size: (usize, usize)) -> Result<()> {
@@ -336,6 +344,57 @@ mod tests {
     }
 
     #[test]
+    fn the_masks_of_a_film_may_be_one_file() {
+        let separate = folder("separate", &[15, 25], 64);
+        let alone = separate.join("000.png");
+        let read = |path: &Path| {
+            let folders = Folders {
+                masks: path,
+                unknown: None,
+                frames: None,
+            };
+            let calibration = Calibration::parse("JT_INTCALIB\n1000\n0\n0\n1\n").unwrap();
+            Source::read(&folders, &calibration).unwrap()
+        };
+        let expected = read(&separate);
+        let mut film = b"\x93NUMPY\x01\0\x40\0".to_vec();
+        film.extend(
+            format!(
+                "{:63}\n",
+                "{'descr': '|b1', 'fortran_order': False, 'shape': (2, 64, 64)}"
+            )
+            .bytes(),
+        );
+        for (_, mask) in &expected.masks {
+            let inside = |at: usize| u8::from(mask.mask().get(at % 64, at / 64));
+            film.extend((0..64 * 64).map(inside));
+        }
+        let file = separate.join("film.npy");
+        std::fs::write(&file, film).unwrap();
+        let together = read(&file);
+        let error = crate::files::read_mask(&file).unwrap_err().to_string();
+        assert!(crate::files::read_mask(&alone).is_ok());
+        std::fs::remove_dir_all(&separate).unwrap();
+        let names = together
+            .masks
+            .iter()
+            .map(|(path, _)| path.to_string_lossy());
+        for (number, name) in names.enumerate() {
+            assert!(
+                name.ends_with(&format!("film.npy #{}", number + 1)),
+                "{name}"
+            );
+        }
+        for ((_, one), (_, other)) in expected.masks.iter().zip(&together.masks) {
+            assert_eq!(one.mask().words(), other.mask().words());
+        }
+        assert!(
+            error.ends_with("film.npy holds 2 masks, and one is wanted here"),
+            "{error}"
+        );
+    }
+
+    #[test]
     fn masks_that_are_black_inside_are_told() {
         let folder = std::env::temp_dir().join(format!("fluoropose-black-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
@@ -344,7 +403,7 @@ mod tests {
             let mut picture = vec![255 - inside; 64];
             picture[..8].fill(inside);
             write_grey(&path, (8, 8), &picture).unwrap();
-            inverted(&[(path.clone(), read_mask(&path).unwrap())])
+            inverted(&read_masks(&path).unwrap())
         };
         let (right, black) = (read(255), read(0));
         std::fs::remove_dir_all(&folder).unwrap();
