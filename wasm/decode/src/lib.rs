@@ -64,7 +64,7 @@ pub use error::{DecodeError, Problem};
 pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
 pub use mask::{
-    MaskImage, MaskRule, decode_mask, decode_mask_by, decode_masks, graded_mask, mask_of,
+    MaskImage, MaskRule, decode_mask, decode_mask_by, decode_masks, graded_mask, mask_of, mask_rule,
 };
 pub use model::{Model, decode_model};
 pub use names::{gaps_among, name_order};

@@ -1,11 +1,11 @@
 //! Mask images: which pixels belong to the implant.
 
-use std::slice;
+use std::collections::BTreeSet;
 
 use crate::error::{DecodeError, Problem};
-use crate::file::{FrameFile, decode_frames};
+use crate::file::FrameFile;
 use crate::frame::{GreyFrame, Pixels};
-use crate::sniff::{Kind, sniff};
+use crate::sniff::Kind;
 
 /// A mask of one byte a pixel.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,56 +46,73 @@ const GRADED: usize = 8;
 /// # Errors
 /// [`DecodeError`] if the file is not an image, is damaged, too large, or holds more than one frame.
 pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
-    let frame = only_frame(bytes, name)?;
-    let rule = rule_for(slice::from_ref(&frame), sniff(bytes, name));
-    Ok(mask_of(&frame, rule))
+    let file = FrameFile::open(bytes, name)?;
+    let frame = only_frame(&file)?;
+    let mut values = Values::new();
+    values.see(&frame);
+    Ok(mask_of(&frame, values.rule_in(file.kind())))
 }
 
 /// All masks of a file, which may hold those of a film. What is inside is decided over all of them: one that shows no implant has small values alone.
 ///
 /// # Errors
-/// Those of [`decode_frames`].
+/// Those of [`FrameFile::open`] and [`FrameFile::frame`].
 pub fn decode_masks(bytes: &[u8], name: &str) -> Result<Vec<MaskImage>, DecodeError> {
-    let frames = decode_frames(bytes, name)?;
-    let rule = rule_for(&frames, sniff(bytes, name));
-    Ok(frames.iter().map(|frame| mask_of(frame, rule)).collect())
+    let file = FrameFile::open(bytes, name)?;
+    let rule = mask_rule(&file)?;
+    let masks = (0..file.count()).map(|index| Ok(mask_of(&file.frame(index)?, rule)));
+    masks.collect()
 }
 
-fn rule_for(frames: &[GreyFrame], kind: Kind) -> MaskRule {
-    match kind {
-        Kind::Jpeg => MaskRule::AtLeast(128),
-        _ => rule_of(frames),
+/// The values that occur in masks.
+struct Values(Vec<bool>);
+
+impl Values {
+    fn new() -> Self {
+        Self(vec![false; 1 << 16])
     }
-}
 
-/// The rule for the values of masks that no coding has changed.
-fn rule_of(frames: &[GreyFrame]) -> MaskRule {
-    let each = frames.iter().map(|frame| match &frame.pixels {
-        Pixels::U8(p) => p.iter().copied().max().map(u16::from),
-        Pixels::U16(p) => p.iter().copied().max(),
-    });
-    let most = each.flatten().max().unwrap_or(0);
-    let mut seen = [false; GRADES];
-    for frame in frames {
+    fn see(&mut self, frame: &GreyFrame) {
         match &frame.pixels {
-            Pixels::U8(p) => see_grades(p, most, &mut seen),
-            Pixels::U16(p) => see_grades(p, most, &mut seen),
+            Pixels::U8(p) => p
+                .iter()
+                .for_each(|&value| self.0[usize::from(value)] = true),
+            Pixels::U16(p) => p
+                .iter()
+                .for_each(|&value| self.0[usize::from(value)] = true),
         }
     }
-    match seen.iter().filter(|&&seen| seen).count() < GRADED {
-        true => MaskRule::NonZero,
-        false => MaskRule::AtLeast(most.div_ceil(2)),
+
+    fn rule_in(&self, kind: Kind) -> MaskRule {
+        match kind {
+            Kind::Jpeg => MaskRule::AtLeast(128),
+            _ => self.rule(),
+        }
+    }
+
+    /// The rule for values that no coding has changed.
+    fn rule(&self) -> MaskRule {
+        let most = self.0.iter().rposition(|&seen| seen).unwrap_or(0);
+        let between = (1..most).filter(|&value| self.0[value]);
+        let grades: BTreeSet<usize> = between.map(|value| value * GRADES / most).collect();
+        match grades.len() < GRADED {
+            true => MaskRule::NonZero,
+            // A value of a pixel.
+            false => MaskRule::AtLeast(most.div_ceil(2) as u16),
+        }
     }
 }
 
-/// Which parts of the largest value occur between 0 and it.
-fn see_grades<T: Copy + Into<u16>>(pixels: &[T], most: u16, seen: &mut [bool; GRADES]) {
-    for value in pixels.iter().map(|&v| v.into()) {
-        if value > 0 && value < most {
-            let grade = usize::from(value) * GRADES / usize::from(most);
-            seen[grade.min(GRADES - 1)] = true;
-        }
+/// The rule for all masks of a file, which are decoded one by one.
+///
+/// # Errors
+/// Those of [`FrameFile::frame`].
+pub fn mask_rule(file: &FrameFile<'_>) -> Result<MaskRule, DecodeError> {
+    let mut values = Values::new();
+    for index in 0..file.count() {
+        values.see(&file.frame(index)?);
     }
+    Ok(values.rule_in(file.kind()))
 }
 
 /// Nearer to 0 or to the largest value than this part of it a grade is as good as decided.
@@ -108,7 +125,9 @@ const LEAST_DECIDED: f64 = 0.001;
 /// A picture read as the mask of graded values that it seems to be: nearly all of them lie near 0 or near the largest. `None` where it seems to be a
 /// picture of something, or a mask of few values, which needs no such reading.
 pub fn graded_mask(frame: &GreyFrame) -> Option<MaskImage> {
-    let rule = rule_of(slice::from_ref(frame));
+    let mut values = Values::new();
+    values.see(frame);
+    let rule = values.rule();
     let MaskRule::AtLeast(least) = rule else {
         return None;
     };
@@ -128,11 +147,10 @@ fn part_of<T: Copy + Into<f64>>(pixels: &[T], is: &dyn Fn(f64) -> bool) -> f64 {
     count as f64 / pixels.len().max(1) as f64
 }
 
-fn only_frame(bytes: &[u8], name: &str) -> Result<GreyFrame, DecodeError> {
-    let file = FrameFile::open(bytes, name)?;
+fn only_frame(file: &FrameFile<'_>) -> Result<GreyFrame, DecodeError> {
     match file.count() {
         1 => file.frame(0),
-        count => Err(Problem::SeveralMasks { count }.of(name)),
+        count => Err(Problem::SeveralMasks { count }.of(file.name())),
     }
 }
 
@@ -141,7 +159,8 @@ fn only_frame(bytes: &[u8], name: &str) -> Result<GreyFrame, DecodeError> {
 /// # Errors
 /// Those of [`decode_mask`].
 pub fn decode_mask_by(bytes: &[u8], name: &str, rule: MaskRule) -> Result<MaskImage, DecodeError> {
-    Ok(mask_of(&only_frame(bytes, name)?, rule))
+    let file = FrameFile::open(bytes, name)?;
+    Ok(mask_of(&only_frame(&file)?, rule))
 }
 
 /// The mask of a decoded frame.

@@ -4,7 +4,9 @@
 use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::{DecodeError, FrameFile, GreyFrame, Model, Pixels, SpacingCalibration};
+use crate::{
+    DecodeError, FrameFile, GreyFrame, MaskImage, MaskRule, Model, Pixels, SpacingCalibration,
+};
 
 fn thrown(error: DecodeError) -> Error {
     Error::new(&error.to_string())
@@ -61,6 +63,19 @@ impl PageFrameFile {
     #[wasm_bindgen(getter, js_name = instanceNumber)]
     pub fn instance_number(&self) -> Option<f64> {
         self.0.instance_number()
+    }
+
+    /// From which value on a pixel is inside, where these are the masks of a film whose values are graded; nothing where they are labels.
+    ///
+    /// # Errors
+    /// Throws if the pixels of a frame are damaged.
+    #[wasm_bindgen(js_name = gradedFrom)]
+    pub fn graded_from(&self) -> Result<Option<u16>, Error> {
+        let rule = crate::mask_rule(&self.0).map_err(thrown)?;
+        Ok(match rule {
+            MaskRule::AtLeast(least) => Some(least),
+            MaskRule::NonZero => None,
+        })
     }
 
     /// Decodes frame `index`, counted from 0.
@@ -205,18 +220,29 @@ impl PageFrame {
     /// The mask of graded values that it seems to be, 1 inside; nothing where it seems to be a picture, or a mask of few values.
     #[wasm_bindgen(js_name = gradedMask)]
     pub fn graded_mask(&self) -> Option<PageFrame> {
-        let mask = crate::graded_mask(&self.0)?;
-        Some(PageFrame(GreyFrame {
-            pixels: Pixels::U8(mask.pixels),
-            bits: 1,
-            ..self.0.clone()
-        }))
+        Some(self.masked(crate::graded_mask(&self.0)?))
+    }
+
+    /// The mask of what is at least `least`, 1 inside.
+    #[wasm_bindgen(js_name = maskFrom)]
+    pub fn mask_from(&self, least: u16) -> PageFrame {
+        self.masked(crate::mask_of(&self.0, MaskRule::AtLeast(least)))
     }
 
     /// What was done to the pixels, a sentence each.
     #[wasm_bindgen(getter)]
     pub fn notes(&self) -> Vec<String> {
         self.0.notes.clone()
+    }
+}
+
+impl PageFrame {
+    fn masked(&self, mask: MaskImage) -> Self {
+        Self(GreyFrame {
+            pixels: Pixels::U8(mask.pixels),
+            bits: 1,
+            ..self.0.clone()
+        })
     }
 }
 

@@ -53,9 +53,11 @@ const README = 'One grey PNG of 8 bits for each outline: 255 inside, 0 outside. 
 async function readPages(file: FrameFile, name: string, tolerance: number, context: Context<{ done: number; total: number }>): Promise<MaskPage[]> {
   const pages: MaskPage[] = [];
   const total = file.count;
+  // Of a film one that shows no implant has small values alone.
+  const least = total > 1 ? file.gradedFrom() : undefined;
   for (let index = 0; index < total; index++) {
     const where = total === 1 ? name : `${name} #${index + 1}`;
-    pages.push(using(file.frame(index), (frame) => readPage(frame, where, tolerance)));
+    pages.push(using(file.frame(index), (frame) => (least === undefined ? readPage(frame, where, tolerance) : using(frame.maskFrom(least), (mask) => readPage(mask, where, tolerance)))));
     context.report({ done: index + 1, total });
     await context.breathe();
   }
