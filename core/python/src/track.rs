@@ -6,9 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::Result;
 use fluoropose::refine::Polarity;
-use fluoropose_laboratory::files::read_text;
+use fluoropose_laboratory::files::{Uncertain, covariances_beside, read_covariances, read_text};
 use fluoropose_laboratory::progress::Stop;
-use fluoropose_laboratory::verbs::report::sources::{Uncertain, covariances};
 use fluoropose_laboratory::verbs::track::{Click, Fixed, Listener, Request, Row, Told, Tracked};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -119,9 +118,8 @@ fn listener(untold: &Arc<Mutex<Untold>>) -> Listener {
 
 /// The covariances that were written of a component.
 fn of(out: &Path, component: &str) -> Result<BTreeMap<usize, Uncertain>> {
-    covariances(&read_text(
-        &out.join(format!("{component}.covariances.csv")),
-    )?)
+    let poses = out.join(format!("{component}.jts"));
+    read_covariances(&read_text(&covariances_beside(&poses))?)
 }
 
 fn component<'py>(

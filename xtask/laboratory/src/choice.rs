@@ -8,5 +8,5 @@ pub mod report;
 
 pub use decide::{Decision, Known, decide};
 pub use mirrored::{doubt_mirrored, fit_flipped};
-pub use posed::{Beside, Posed, Posing};
+pub use posed::{Beside, Posed, Posing, uncertain};
 pub use reasons::Reasons;

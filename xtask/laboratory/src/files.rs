@@ -1,6 +1,7 @@
 //! What is read and written: models, masks, calibrations, poses, frames, corrections, studies.
 
 mod calibration;
+mod covariances;
 mod distortion;
 mod film;
 mod found_with;
@@ -22,6 +23,7 @@ mod text;
 pub use fluoropose_noise::MaskBuffer;
 
 pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken};
+pub use covariances::{Uncertain, covariances_beside, read_covariances, write_covariances};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use fluoropose_decode::name_order;

@@ -207,6 +207,73 @@ fn evaluate_says_when_there_is_nothing_and_makes_its_folder() {
     let (code, said) = folder.run(&words);
     assert_eq!(code, 0, "{said}");
     assert!(folder.0.join("new/poses/femur-truth.jts").is_file());
+    assert!(
+        folder
+            .0
+            .join("new/poses/femur-truth.covariances.csv")
+            .is_file()
+    );
+    writes_only_where_it_is_told(&folder, &study);
+}
+
+/// Without references there is nothing to compare, and poses go nowhere unless somebody says where.
+fn writes_only_where_it_is_told(folder: &Folder, study: &str) {
+    let lines = study.lines().filter(|line| !line.starts_with("reference"));
+    let without: String = lines.map(|line| format!("{line}\n")).collect();
+    fs::write(folder.0.join("without.toml"), without).expect("a study");
+    let names = || -> Vec<_> {
+        let entries = fs::read_dir(&folder.0).expect("a folder").flatten();
+        entries.map(|entry| entry.file_name()).collect()
+    };
+    let before = names();
+    let (code, said) = folder.run(&["evaluate", "--study", "without.toml"]);
+    assert!(code == 1 && said.contains("by --poses"), "{said}");
+    assert_eq!(names(), before);
+    let words = ["evaluate", "--study", "without.toml", "--poses", "found"];
+    let (code, said) = folder.run(&words);
+    let told = said.contains("poses are written to found and compared with nothing");
+    assert!(code == 0 && told, "{said}");
+    assert!(folder.0.join("found/tibia-truth.jts").is_file());
+}
+
+/// What `pose` writes of masks is enough for the joint's standard deviations.
+#[test]
+fn poses_of_masks_are_reported_with_their_deviations() {
+    let folder = Folder::new("reported");
+    for name in ["femur", "tibia"] {
+        let [model, library, masks, out, table] = [
+            format!("{name}.stl"),
+            format!("{name}.library"),
+            format!("masks/{name}"),
+            format!("found/{name}.jts"),
+            format!("found/{name}.csv"),
+        ];
+        fs::create_dir_all(folder.0.join("found")).expect("a folder");
+        let of = ["--model", &model, "--calibration", "calibration.txt"];
+        let build = [
+            &["library", "--out", &library, "--frame", "256,256"][..],
+            &of,
+        ]
+        .concat();
+        let (code, said) = folder.run(&build);
+        assert_eq!(code, 0, "{said}");
+        let find = ["pose", "--library", &library, "--masks", &masks];
+        let to = ["--out", &out, "--report", &table, "--method", "refined"];
+        let (code, said) = folder.run(&[&find[..], &of, &to].concat());
+        assert!(code == 0 || code == 3, "{said}");
+    }
+    let words = ["report", "--study", ".", "--poses", "found", "--out", "r"];
+    let (_, said) = folder.run(&words);
+    assert!(!said.contains("no standard deviations"), "{said}");
+    // Of masks nothing is the film's: both components err by themselves.
+    assert!(!said.contains("counts twice"), "{said}");
+    let joint = folder.read("r/joint.csv");
+    let mut lines = joint.lines().filter(|line| !line.starts_with('#'));
+    let heading: Vec<&str> = lines.next().expect("a heading").split(',').collect();
+    let at = heading.iter().position(|name| name.starts_with("sd_"));
+    let at = at.unwrap_or_else(|| panic!("deviations: {heading:?}"));
+    let first: Vec<&str> = lines.next().expect("a row").split(',').collect();
+    assert!(first[at].parse::<f64>().is_ok_and(|sd| sd > 0.0), "{joint}");
 }
 
 #[test]

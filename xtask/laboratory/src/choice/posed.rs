@@ -9,7 +9,7 @@ use fluoropose::pose::Pose;
 use super::decide::{Decision, Known, decide};
 use super::mirrored::doubt_mirrored;
 use super::report::{FrameReport, report};
-use crate::files::Role;
+use crate::files::{Role, Uncertain};
 use crate::finding::{
     EdgeOptions, Filmed, Finder, FrameFound, Method, Stated, axes_of, bring_onto_frames, find_poses,
 };
@@ -169,6 +169,11 @@ impl Posed {
         self.decisions.iter().map(pose).collect()
     }
 
+    /// How uncertain each pose is that has a covariance, a row a frame.
+    pub fn uncertain(&self) -> impl Iterator<Item = Option<Uncertain>> {
+        uncertain(&self.decisions, self.film.is_some())
+    }
+
     /// The table of the sequence.
     pub fn report(&self) -> Vec<FrameReport> {
         let mut rows = report(&self.found, &self.decisions, &self.middle);
@@ -177,6 +182,22 @@ impl Posed {
         }
         rows
     }
+}
+
+/// How uncertain each pose is that has a covariance, a row a frame; `on_frames`: where poses were brought onto frames, whose film has a part
+/// in it that candidates do not keep apart. Masks have none.
+pub fn uncertain(
+    decisions: &[Option<Decision>],
+    on_frames: bool,
+) -> impl Iterator<Item = Option<Uncertain>> {
+    let film_steps = (!on_frames).then_some([[0.0; 6]; 2]);
+    decisions.iter().map(move |decision| {
+        let posed = decision.as_ref().filter(|one| one.pose().is_some())?;
+        Some(Uncertain {
+            covariance: posed.chosen.covariance?,
+            film_steps,
+        })
+    })
 }
 
 fn shape_axes(model: &Model<'_>, role: Role) -> Result<Pose> {

@@ -12,9 +12,10 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use crate::choice::report::{report, write_report};
-use crate::choice::{Reasons, report};
+use crate::choice::{Reasons, report, uncertain};
 use crate::files::{
-    Component, Study, check_outputs, read_calibration, read_poses_of, write_json, write_poses,
+    Component, Study, check_outputs, read_calibration, read_poses_of, write_covariances,
+    write_json, write_poses,
 };
 use crate::finding::{EdgeOptions, Method};
 use crate::noise::{DisturbanceOptions, Noise};
@@ -32,7 +33,7 @@ pub use table::{Row, StartDifference, Table, Verdicts};
     after_help = format!("For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
 the reference poses, and the other methods' pose files named there in the same table. wrong counts frames whose pose is nearer to the \
 reference's mirror image than to the reference. The mean error stands below as bias, and then the percent of frames in which each number lies within one and two of its standard deviations of the reference's: 68 and 95 where they are told right; then the same \
-without the mean error, which no frame tells: the reference's, the calibration's, the model's. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
+without the mean error, which no frame tells: the reference's, the calibration's, the model's. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has no row; its poses are written with the others' where --poses is given.\n\n\
 Of several poses of a frame one is chosen by its residual, where it decides; of a tibia by the coronal tilt against the femur of the same \
 source; then by continuity over the frames. How many frames were chosen by what stands below each row. Components are femur and tibia by their names or \
 by the key role = \"femur\" or \"tibia\".\n\n\
@@ -63,8 +64,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Folder for the poses found, made if absent: COMPONENT-SOURCE.jts each, with the uncertainty table
-    /// COMPONENT-SOURCE.csv beside it [default: written only for components without a reference,
-    /// to the current folder]
+    /// COMPONENT-SOURCE.csv and the covariances beside it; needed where no component has a reference
     #[arg(long, value_name = "DIR")]
     poses: Option<PathBuf>,
     #[command(flatten)]
@@ -94,12 +94,9 @@ pub fn run(args: Args) -> Result<()> {
     let table = evaluate(&args.study, &request)?;
     match table.rows.is_empty() {
         true => println!(
-            "{}: no component has a reference; its poses are written to {} and compared with nothing",
+            "{}: no component has a reference; poses are written to {} and compared with nothing",
             table.study,
-            args.poses.as_deref().map_or_else(
-                || "the current folder (--poses names another)".to_owned(),
-                |folder| folder.display().to_string()
-            )
+            args.poses.as_deref().unwrap_or(Path::new("")).display()
         ),
         false => print::print(&table),
     }
@@ -131,6 +128,7 @@ pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
             path.display()
         );
     }
+    check_purpose(&study, request)?;
     // Before hours of work.
     if let Some(folder) = request.poses {
         std::fs::create_dir_all(folder)
@@ -159,14 +157,39 @@ fn is_evaluated(component: &Component) -> bool {
     is_compared || !component.masks.is_empty()
 }
 
+/// Refuses work whose poses would neither be compared nor written; of single components it is said.
+fn check_purpose(study: &Study, request: &Request<'_>) -> Result<()> {
+    if request.poses.is_some() {
+        return Ok(());
+    }
+    ensure!(
+        study.components.iter().any(|one| one.reference.is_some()),
+        "no component of {} has reference poses to compare with: name their file as reference in its [[component]], or a folder for the poses \
+         that are found, by --poses",
+        study.name
+    );
+    let alone = study
+        .components
+        .iter()
+        .filter(|one| one.reference.is_none());
+    for component in alone.filter(|one| !one.masks.is_empty()) {
+        eprintln!(
+            "the component {} has no reference: its poses are compared with nothing, and are not written (--poses names a folder for them)",
+            component.name
+        );
+    }
+    Ok(())
+}
+
 impl Part<'_> {
     /// Writes poses and their uncertainty.
     fn write(&self, found: &Found, folder: Option<&Path>) -> Result<()> {
-        let Some(folder) = folder.or(self.reference.is_none().then_some(Path::new(""))) else {
+        let Some(folder) = folder else {
             return Ok(());
         };
         let path = folder.join(format!("{}-{}.jts", self.component.name, found.source));
         write_poses(&path, &found.rows())?;
+        write_covariances(&path, uncertain(&found.decisions, found.film.is_some()))?;
         let middle = self.model.as_model().bounds().centre;
         let frames = report(&found.frames, &found.decisions, &middle);
         write_report(&path.with_extension("csv"), &frames)

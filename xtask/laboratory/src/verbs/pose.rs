@@ -18,8 +18,8 @@ use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report
 use crate::choice::{Decision, Posed, Posing, Reasons};
 
 use crate::files::{
-    Role, check_outputs, name_of, read, read_calibration, read_model_and_remarks_of, shape_doubt,
-    size_taken, write_poses,
+    Role, check_outputs, covariances_beside, name_of, read, read_calibration,
+    read_model_and_remarks_of, shape_doubt, size_taken, write_covariances, write_poses,
 };
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
@@ -44,6 +44,7 @@ To see what a worse trace would give, --jitter S follows each outline of a mask,
 Gaussian noise of the standard deviation S and the correlation length --correlation, and fills it again; --occlude F hides the part F of \
 the outline's length behind a half plane, a disc or a band, and what is hidden is left out of the mask or traced as a part of it.\n\n\
 After the sign ± stands one standard deviation (1 SD). {}\n\n{}\n\n\
+`report --poses DIR` takes the files where they stand in one folder as COMPONENT.jts, with --report COMPONENT.csv for their verdicts.\n\n\
 Example:\n  cargo xtask pose --library femur.library --model femur.stl --calibration calibration.txt --masks masks/femur --out femur.jts \
 --method refined --report femur.csv", report::HELP, report::NEAR_THE_POLE)
 )]
@@ -80,7 +81,7 @@ pub struct Args {
     /// The other component's model: the tilt is then taken in the axes that both shapes tell, else in those of the files
     #[arg(long, value_name = "FILE", requires = "counterpart")]
     counterpart_model: Option<PathBuf>,
-    /// Pose file to write, a row a mask
+    /// Pose file to write, a row a mask; beside it the covariances of its poses, for `report`: femur.covariances.csv beside femur.jts
     #[arg(long)]
     out: PathBuf,
     /// Uncertainty table to write, .csv or .json
@@ -131,6 +132,7 @@ pub fn run(args: Args) -> Result<u8> {
         }
         let poses = poses.into_iter().map(|pose| pose.map(EulerPose::from));
         write_poses(&args.out, &poses.collect::<Vec<_>>())?;
+        write_covariances(&args.out, posed.uncertain())?;
     }
     let size = (source.camera.width(), source.camera.height());
     if let Some(words) = size_taken(&calibration, size) {
@@ -162,8 +164,10 @@ fn check_options(args: &Args) -> Result<()> {
         (Method::Image, _) | (_, None) => {}
         (_, Some(_)) => bail!("--frames are looked at by --method image alone: ask for it"),
     }
+    let covariances = covariances_beside(&args.out);
     let outputs = [
         ("--out", Some(&*args.out)),
+        ("--out (covariances)", Some(&*covariances)),
         ("--report", args.report.as_deref()),
     ];
     let read = [&args.library, &args.model, &args.calibration];

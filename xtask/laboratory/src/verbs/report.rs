@@ -28,7 +28,7 @@ COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number,
 frames a second are known. With --overlay a folder overlay of the frames with both outlines laid on and the curves beside, a PNG for each frame, and \
 the film of them, overlay.webm, 10 pictures a second where nobody said how many.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
-COMPONENT.covariances.csv beside them, doubts and checks track.csv: `track` writes them, and the page packs them (Poses, For commands).\n\n\
+COMPONENT.covariances.csv beside them, doubts and checks track.csv: `track` writes them, and the page packs them (Poses, For commands); of masks `pose` writes the former, and `pose --report COMPONENT.csv` verdicts.\n\n\
 Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \
 flexion, each knee first), the figure (figure.svg, .pdf and .png), and cycle (a row a film).\n\n\
 Examples:\n  cargo xtask report --study study.toml --poses tracked --out report\n  \

@@ -18,8 +18,7 @@ pub struct Request<'a> {
     pub centred: bool,
     /// What is done to each mask before.
     pub disturbance: DisturbanceOptions,
-    /// Where poses and uncertainty tables are written to. `None`: those of components without a
-    /// reference, to the current folder.
+    /// Where poses, their covariances and uncertainty tables are written to; nowhere where it is `None`.
     pub poses: Option<&'a Path>,
 }
 

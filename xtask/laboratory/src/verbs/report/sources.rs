@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_report::cell::plain;
 use fluoropose_report::{Input, plus_minus};
 
 use crate::files::{
-    Component, FoundWith, PoseRows, Role, State, States, Study, csv_fields, name_of, other_count,
-    read, read_calibration, read_poses, read_poses_of, read_text, sha256,
+    Component, FoundWith, PoseRows, Role, State, States, Study, Uncertain, covariances_beside,
+    csv_fields, name_of, other_count, read, read_calibration, read_covariances, read_poses,
+    read_poses_of, read_text, sha256,
 };
 
 /// A component with its poses.
@@ -29,15 +29,6 @@ pub struct Body {
     pub poses: Vec<Option<Pose>>,
     /// By frame, from 0, where they are known.
     pub uncertain: BTreeMap<usize, Uncertain>,
-}
-
-/// How uncertain a pose is.
-#[derive(Clone, Copy, Debug)]
-pub struct Uncertain {
-    /// Its covariance.
-    pub covariance: PoseCovariance,
-    /// What a step of each of the film's constants does to it; `None` in files from before it was written.
-    pub film_steps: Option<[[f64; 6]; 2]>,
 }
 
 /// What a report is made from.
@@ -253,11 +244,11 @@ impl Body {
         })?;
         inputs.push(digest(&format!("{word} model"), &component.model)?);
         inputs.push(digest(&format!("{word} poses"), &file)?);
-        let beside = file.with_extension("covariances.csv");
+        let beside = covariances_beside(&file);
         let uncertain = match poses.is_some() && beside.is_file() {
             true => {
                 inputs.push(digest(&format!("{word} covariances"), &beside)?);
-                covariances(&read_text(&beside)?)
+                read_covariances(&read_text(&beside)?)
                     .with_context(|| format!("in {}", beside.display()))?
             }
             false => BTreeMap::new(),
@@ -317,68 +308,9 @@ fn digest(what: &str, file: &Path) -> Result<Input> {
     })
 }
 
-/// As `track` writes them: a frame, from 1, 36 numbers, and twice six of the film, which older files do not have. By frame, from 0.
-///
-/// # Errors
-/// Names the line.
-pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
-    let mut all = BTreeMap::new();
-    for (index, line) in text.lines().enumerate().skip(1) {
-        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
-        let numbers = numbers.with_context(|| format!("line {}", index + 1))?;
-        let (rows, rest) = numbers.get(1..).unwrap_or_default().as_chunks::<6>();
-        let whole = rest.is_empty() && matches!(rows.len(), 6 | 8);
-        let matrix = rows.first_chunk::<6>().filter(|_| whole);
-        let matrix = *matrix
-            .with_context(|| format!("line {} does not hold 37 or 49 numbers", index + 1))?;
-        let uncertain = Uncertain {
-            covariance: PoseCovariance { matrix },
-            film_steps: rows[6..].try_into().ok(),
-        };
-        let frame = numbers[0];
-        ensure!(
-            frame >= 1.0 && frame.fract() == 0.0,
-            "line {} names no frame, a whole number from 1",
-            index + 1
-        );
-        let is_known = numbers.iter().all(|number| number.is_finite());
-        ensure!(
-            is_known && (0..6).all(|k| matrix[k][k] >= 0.0),
-            "line {} holds no covariance: its numbers have to be finite, and variances not negative",
-            index + 1
-        );
-        all.insert(frame as usize - 1, uncertain);
-    }
-    Ok(all)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn covariances_that_are_none_are_refused() {
-        let table = |frame: &str, first: &str| {
-            let identity = |k: usize| if k.is_multiple_of(7) { "1" } else { "0" };
-            let numbers: Vec<&str> = (0..36).map(identity).collect();
-            let row = numbers.join(",").replacen('1', first, 1);
-            covariances(&format!("frame,c11\n{frame},{row}\n"))
-        };
-        assert_eq!(table("2", "0.5").unwrap()[&1].covariance.matrix[0][0], 0.5);
-        for (frame, first, words) in [
-            ("2", "nan", "holds no covariance"),
-            ("2", "inf", "holds no covariance"),
-            ("2", "-1", "holds no covariance"),
-            ("0", "1", "names no frame"),
-            ("1.5", "1", "names no frame"),
-        ] {
-            let error = table(frame, first).err().map(|error| error.to_string());
-            assert!(
-                error.is_some_and(|error| error.contains(words)),
-                "{frame} {first}"
-            );
-        }
-    }
 
     #[test]
     fn what_is_told_of_both_components_stands_in_one_line() {

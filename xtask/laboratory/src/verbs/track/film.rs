@@ -26,10 +26,10 @@ use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::Margins;
 use super::squares::chosen_square;
-use super::table::{HEADING, Row, TABLE, covariance_table, film_table};
+use super::table::{HEADING, Row, TABLE, film_table, uncertain};
 use crate::files::{
     Film, FoundWith, Study, camera_of_frames, check_outputs, doubt_beside, read, read_calibration,
-    size_taken, write_poses, write_text,
+    size_taken, write_covariances, write_poses, write_text,
 };
 use crate::finding::Stated;
 use crate::options::of_body;
@@ -291,9 +291,9 @@ fn finish(
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))
             .collect();
-        write_poses(&out.join(format!("{}.jts", part.name())), &poses)?;
-        let covariances = out.join(format!("{}.covariances.csv", part.name()));
-        write_text(&covariances, &covariance_table(cells))?;
+        let file = out.join(format!("{}.jts", part.name()));
+        write_poses(&file, &poses)?;
+        write_covariances(&file, cells.iter().map(uncertain))?;
         let rows = cells.iter().zip(&judged).enumerate();
         let row = |(frame, (cell, judged)): (usize, (&Cell, &Conclusion))| {
             Row::of(frame, cell, &judged.in_pixels(side), (&middle, side))

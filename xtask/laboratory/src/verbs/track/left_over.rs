@@ -7,7 +7,7 @@ use crate::files::{Study, name_of};
 
 /// What is left in the folder, a sentence without its full stop; nothing where nothing is.
 pub(super) fn left_over(out: &Path, study: &Study) -> Option<String> {
-    // No other program writes such a pair.
+    // Nobody writes such a pair who does not write poses: of a folder of `pose` it is told too.
     let end = ".covariances.csv";
     let names = fs::read_dir(out).ok()?.flatten();
     let names = names.map(|entry| name_of(&entry.path()));

@@ -9,6 +9,8 @@ use fluoropose::pose::EulerPose;
 use fluoropose::pose::covariance::Deviations;
 use fluoropose_report::cell::quoted;
 
+use crate::files::Uncertain;
+
 /// A frame of a component.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -60,31 +62,13 @@ pub(super) fn film_table<'p>(films: impl Iterator<Item = (&'p str, Option<FilmMo
     text
 }
 
-/// The covariance of each pose that has one, a row a frame: the frame, and 36 numbers row by row, of a turn about the middle of
-/// the model (radians) and a shift (mm), both in camera axes; then how the pose moves with one standard deviation of each of two constants
-/// of the film, which is in the covariance and moves the other component too.
-pub(super) fn covariance_table(cells: &[Cell]) -> String {
-    let mut text = String::from("frame");
-    for row in 1..=6 {
-        (1..=6).for_each(|column| text.push_str(&format!(",c{row}{column}")));
-    }
-    for constant in 1..=2 {
-        (1..=6).for_each(|k| text.push_str(&format!(",film{constant}_{k}")));
-    }
-    text.push('\n');
-    for (frame, cell) in cells.iter().enumerate() {
-        let found = cell.found().filter(|_| !cell.fixed);
-        if let Some((found, covariance)) = found.and_then(|found| Some((found, found.covariance?)))
-        {
-            text.push_str(&(frame + 1).to_string());
-            let steps = found.film_steps.as_flattened();
-            for number in covariance.matrix.as_flattened().iter().chain(steps) {
-                text.push_str(&format!(",{number}"));
-            }
-            text.push('\n');
-        }
-    }
-    text
+/// How uncertain each pose is that has a covariance.
+pub(super) fn uncertain(cell: &Cell) -> Option<Uncertain> {
+    let found = cell.found().filter(|_| !cell.fixed)?;
+    Some(Uncertain {
+        covariance: found.covariance?,
+        film_steps: Some(found.film_steps),
+    })
 }
 
 impl Row {
