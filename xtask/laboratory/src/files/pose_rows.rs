@@ -1,6 +1,6 @@
 //! Which row of a folder of poses is of which frame: a `track.csv` beside them names each frame's file.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -13,6 +13,8 @@ use super::text::{csv_fields, name_of, read_text};
 
 /// The table of states beside poses.
 const TABLE: &str = "track.csv";
+/// So many names stand in a sentence.
+const LISTED: usize = 5;
 
 /// Of each frame, in the order of their files' names, the row of poses that is its own, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,10 +49,7 @@ impl PoseRows {
         let mut order = BTreeMap::new();
         for (&row, (file, number)) in &rows {
             let Some(&place) = places.get(file.as_str()) else {
-                bail!(
-                    "its frame {} is of the file {file}, which is not among them; where files were renamed, take the column file out of the table",
-                    row + 1
-                );
+                bail!("{}", Unlike::of(&rows, files).words());
             };
             if order.insert((place, *number), row).is_some() {
                 bail!("two of its frames are of the file {file}");
@@ -93,6 +92,53 @@ impl PoseRows {
             "{}: its rows stand in another order than the frames' names; each was taken for the file that {TABLE} names",
             poses.display()
         )
+    }
+}
+
+/// Files of a table and of a folder that have no part among the others.
+struct Unlike<'t> {
+    /// With the frame, from 1, that the table has of it.
+    of_table: Vec<(usize, &'t str)>,
+    of_folder: Vec<&'t str>,
+}
+
+impl<'t> Unlike<'t> {
+    fn of(rows: &'t BTreeMap<usize, (String, usize)>, files: &'t [String]) -> Self {
+        let there: HashSet<&str> = files.iter().map(String::as_str).collect();
+        let named = rows.iter().map(|(row, (file, _))| (row + 1, file.as_str()));
+        let told: HashSet<&str> = named.clone().map(|(_, file)| file).collect();
+        let folder = files.iter().map(String::as_str);
+        Self {
+            of_table: named.filter(|(_, file)| !there.contains(file)).collect(),
+            of_folder: folder.filter(|file| !told.contains(file)).collect(),
+        }
+    }
+
+    /// Which names differ, and what to do: never to pair what is left by its place, of which nothing says that it is the same order.
+    fn words(&self) -> String {
+        let named = self.of_table.iter();
+        let named = named.map(|(frame, file)| format!("frame {frame} is of the file {file}"));
+        let mut text = format!("its {}: not among the frames", listed(named));
+        let left = self.of_folder.iter();
+        match self.of_folder.is_empty() {
+            true => text.push_str("; every file of the frames has a row of its own"),
+            false => {
+                let left = listed(left.map(|&file| file.to_owned()));
+                text.push_str(&format!("; the frames have {left}, of which no row is"));
+            }
+        }
+        text + ". Where only names were changed, give the frames the names that the table has, or write each frame's new name into the table's \
+                column file, in every row of that frame. Rows are not paired with frames by their order: nothing would tell if it were another one"
+    }
+}
+
+/// The first of them, and how many more there are.
+fn listed(all: impl ExactSizeIterator<Item = String>) -> String {
+    let more = all.len().saturating_sub(LISTED);
+    let text = all.take(LISTED).collect::<Vec<_>>().join(", ");
+    match more {
+        0 => text,
+        _ => format!("{text} and {more} more"),
     }
 }
 
@@ -208,5 +254,28 @@ mod tests {
         assert!(said.contains("no row of the file f2.png"), "{said}");
         let said = refused(&[("f1.png", 1), ("f1.png", 1)], &["f1.png"]);
         assert!(said.contains("two of its frames"), "{said}");
+    }
+
+    #[test]
+    fn which_names_differ_is_told_and_nothing_is_to_be_paired_by_its_place() {
+        let names = |prefix: &str| -> Vec<String> {
+            (1..=8)
+                .map(|number| format!("{prefix}{number}.png"))
+                .collect()
+        };
+        let (old, mut new) = (names("a"), names("b"));
+        new[0].clone_from(&old[0]);
+        let rows: Vec<(&str, usize)> = old.iter().map(|name| (name.as_str(), 1)).collect();
+        let said = PoseRows::of_table(&table(&rows), &new).expect_err("other names");
+        let said = said.to_string();
+        for words in [
+            "its frame 2 is of the file a2.png, frame 3 is of the file a3.png,",
+            "a6.png and 2 more: not among the frames",
+            "the frames have b2.png, b3.png, b4.png, b5.png, b6.png and 2 more, of which no row is",
+            "write each frame's new name into the table's column file",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+        assert!(!said.contains("take the column"), "{said}");
     }
 }
