@@ -109,10 +109,24 @@ pageTest('what does not fit is said', async (page, t) => {
     assert.match(first.to, /^frame 1/);
     assert.equal(second.to, 'left out: its image has 512 x 512 px, frame 2 has 1024 x 1024');
     assert.equal(third.to, 'left out: no frame is called 0009.png');
-    await page.getByRole('list', { name: 'What could not be read' }).getByText('0003.png is empty').waitFor();
+    await page.getByRole('list', { name: 'What could not be read' }).getByText('femur/0003.png is empty').waitFor();
     await screenshot(page, 'import troubles');
     await page.getByRole('dialog', { name: 'Import outlines' }).getByRole('button', { name: 'Cancel' }).click();
     assert((await panel.cells(page)).every((name) => name.endsWith(': empty')));
+  });
+
+  await step(page, t, 'a picture among masks is no frame of the film, and masks by order of another number than frames are told', async () => {
+    const disc = drawnMask('a', SIDE, SIDE, (column, row) => (Math.hypot(column - 400, row - 400) < 200 ? 255 : 0)).buffer;
+    const noise = drawnMask('b', SIDE, SIDE, (column, row) => (column * 7919 + row * 104729 + ((column * row) % 251)) % 256).buffer;
+    const masks = ['a', 'b', 'c', 'd', 'e'].map((name) => /** @type {const} */ ([`${name}.png`, disc]));
+    await dropFolder(page, 'femur', [...masks, ['f.png', noise]]);
+    await until(() => proposed(page), (rows) => rows.length === 5, 'five masks');
+    const sheet = page.getByRole('dialog', { name: 'Import outlines' });
+    await page.getByRole('list', { name: 'What could not be read' }).getByText(/^femur\/f\.png: .*it is no mask/).waitFor();
+    await page.getByRole('radio', { name: 'order' }).check();
+    await sheet.getByText(`femur: 6 images for ${FRAMES} frames.`).waitFor();
+    await sheet.getByRole('button', { name: 'Cancel' }).click();
+    await panel.waitForFrames(page, FRAMES);
   });
 
   await step(page, t, 'grey values and categories that nobody knows are asked for', async () => {

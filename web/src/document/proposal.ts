@@ -30,6 +30,8 @@ export interface ProposedItem {
   readonly image: string;
   /** Place among the images of its subject, from 0. */
   readonly order: number;
+  /** How many images its subject has, those without an outline too; null where the file does not tell. */
+  readonly images: number | null;
   /** SHA-256 of the image's file and the frame in it, where our own format tells. */
   readonly frameId: string | null;
   readonly subject: string;
@@ -130,8 +132,15 @@ function lastNumber(stem: string): number | null {
 export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): FrameMatching {
   if (items.every(({ image }) => image === '')) return 'order';
   if (items.some((item) => frameOf(doc, item, 'name') >= 0)) return 'name';
-  const most = Math.max(0, ...items.map(({ order }) => order + 1));
+  const most = Math.max(0, ...items.map(({ order, images }) => images ?? order + 1));
   return most === doc.frames.length ? 'order' : 'name';
+}
+
+/** Subjects of another number of images than there are frames: by order one that is missing puts all behind it at the frame before. */
+export function unevenSubjects(doc: Doc, { items, subjects, match }: Proposal): readonly { readonly subject: string; readonly images: number }[] {
+  if (match !== 'order') return [];
+  const counts = new Map(items.flatMap(({ subject, images }) => (images !== null && subjects[subject] ? [[subject, images]] : [])));
+  return [...counts].flatMap(([subject, images]) => (images === doc.frames.length ? [] : [{ subject, images }]));
 }
 
 /** What a subject's name says; null where it says nothing. */

@@ -72,16 +72,16 @@ export function readCoco(json: string): ReadOutlines & { readonly masks: readonl
     const [polygons, runs] = [polygonsOf(annotation.segmentation), runsOf(annotation.segmentation)];
     if (!found) remarks.push(`annotation ${annotation.id} is of image ${annotation.image_id}, which the file does not list`);
     else if (subject === undefined) remarks.push(`annotation ${annotation.id} is of category ${annotation.category_id}, which the file does not list`);
-    else if (runs !== null) masks.push({ item: { ...placeOf(annotation, found.image, found.order, subject), size: { width: runs.width, height: runs.height } }, runs });
+    else if (runs !== null) masks.push({ item: { ...placeOf(annotation, found, images.length, subject), size: { width: runs.width, height: runs.height } }, runs });
     else if (polygons === null) remarks.push(`annotation ${annotation.id} (${found.image.file_name}) has ${Array.isArray(annotation.segmentation) ? 'no polygon of three points or more' : 'run lengths that do not fill its image'}`);
-    else items.push(itemOf(placeOf(annotation, found.image, found.order, subject), polygons));
+    else items.push(itemOf(placeOf(annotation, found, images.length, subject), polygons));
   }
   return { items: largestFirst(items), masks, remarks };
 }
 
-function placeOf({ id }: CocoAnnotation, { file_name: image, width, height }: CocoImage, order: number, subject: string): ProposedRuns['item'] {
+function placeOf({ id }: CocoAnnotation, { image: { file_name: image, width, height }, order }: { readonly image: CocoImage; readonly order: number }, images: number, subject: string): ProposedRuns['item'] {
   const size = width > 0 && height > 0 ? { width, height } : null;
-  return { label: `${image}, ${subject} (annotation ${id})`, image, order, frameId: null, subject, size };
+  return { label: `${image}, ${subject} (annotation ${id})`, image, order, images, frameId: null, subject, size };
 }
 
 function itemOf(place: ProposedRuns['item'], polygons: readonly number[][]): ProposedItem {

@@ -71,6 +71,7 @@ function itemOf({ file, bytes }: Region, at: number, source: string): ProposedIt
     label: name === file ? file : `${file}, ${name}`,
     image: isNamedByPlace ? '' : file,
     order: slice > 0 ? slice - 1 : at,
+    images: null,
     frameId: null,
     subject: componentNamed(name) ?? componentNamed(file) ?? componentNamed(source) ?? later.exchange.unnamed,
     size: null,

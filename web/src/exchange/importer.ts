@@ -64,7 +64,7 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
   if (files.length === 0) return [];
   const abort = new AbortController();
   const worker = masksWorker();
-  const pages: { file: OutlineFile; name: string; page: MaskPage }[] = [];
+  const pages: ReadMask[] = [];
   const job = { title: later.exchange.reading, unit: later.exchange.files, total: files.length, cancel: () => abort.abort() };
   try {
     await asJob(services.store, job, async (report) => {
@@ -73,10 +73,11 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
           const { blob, name } = file;
           const bytes = await bytesOf(blob);
           const found = await worker.call('read', { bytes, name, tolerance: TOLERANCE }, { signal: abort.signal });
-          found.forEach((page, at) => pages.push({ file, name: found.length === 1 ? name : `${name} #${at + 1}`, page }));
+          found.forEach((page, at) => pages.push({ file, place: found.length === 1 ? '' : ` #${at + 1}`, page }));
         } catch (error) {
           if (error instanceof Aborted) throw error;
-          remarks.push(`${file.name}: ${sentenceOf(error)}`);
+          remarks.push(`${pathOf(file)}: ${sentenceOf(error)}`);
+          pages.push({ file, place: '', page: null });
         }
         report(index + 1, files.length);
       }
@@ -87,21 +88,35 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
   return itemsOf(pages, remarks);
 }
 
-function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPage }[], remarks: string[]): ProposedItem[] {
+/** A page of a file of masks; `null` where it could not be read. */
+export interface ReadMask {
+  readonly file: OutlineFile;
+  /** Which of several pages of the file. */
+  readonly place: string;
+  readonly page: MaskPage | null;
+}
+
+/** Exported for its test. A mask that is empty or cannot be read keeps its place: by order those behind it would be one frame too early. */
+export function itemsOf(pages: readonly ReadMask[], remarks: string[]): ProposedItem[] {
   const subjectOf = subjectsByFolder(pages.map(({ file }) => pathOf(file)));
-  const several = pages.some(({ page }) => page.labels.length > 1);
-  const places = new Map<string, number>();
-  return pages.flatMap(({ file, name, page }) => {
-    if (page.labels.length === 0) remarks.push(later.exchange.emptyMask(name));
-    const folder = subjectOf(pathOf(file));
-    return page.labels.map((label) => {
-      const subject = several ? later.exchange.value(label.value) : folder;
-      const order = places.get(subject) ?? 0;
-      places.set(subject, order + 1);
-      const { width, height } = page;
-      // With its page, where there are several.
-      const path = pathOf(file) + name.slice(file.name.length);
-      return itemOfMask({ label: several ? `${path}, ${subject}` : path, image: name, order, frameId: null, subject, size: { width, height } }, label);
+  const several = pages.some(({ page }) => (page?.labels.length ?? 0) > 1);
+  // Labels of one picture stand at its place, of whatever they are.
+  const group = (file: OutlineFile) => (several ? '' : subjectOf(pathOf(file)));
+  const counts = new Map<string, number>();
+  const placed = pages.map((one) => {
+    const order = counts.get(group(one.file)) ?? 0;
+    counts.set(group(one.file), order + 1);
+    return { ...one, order };
+  });
+  return placed.flatMap(({ file, place, page, order }) => {
+    const path = pathOf(file) + place;
+    if (page?.labels.length === 0) remarks.push(later.exchange.emptyMask(path));
+    const images = counts.get(group(file)) ?? null;
+    return (page?.labels ?? []).map((label) => {
+      const subject = several ? later.exchange.value(label.value) : subjectOf(pathOf(file));
+      const { width, height } = page!;
+      const image = file.name + place;
+      return itemOfMask({ label: several ? `${path}, ${subject}` : path, image, order, images, frameId: null, subject, size: { width, height } }, label);
     });
   });
 }
@@ -135,7 +150,7 @@ export async function masksAmong<F extends Incoming & { readonly head: Uint8Arra
     // What cannot be decoded is a frame's trouble, and told there.
     const look = async ({ blob, name }: Incoming) => worker.call('look', { bytes: await bytesOf(blob), name }).catch(() => null);
     const looks = await lookedAt(store, candidates, look);
-    return masksBy(files, new Map(candidates.map((file, index) => [file, looks[index] ?? null])));
+    return masksBy(files, new Map(candidates.map((file, index) => [file, looks[index] ?? null])), store.doc.frames.length > 0);
   } finally {
     worker.dispose();
   }
@@ -143,21 +158,32 @@ export async function masksAmong<F extends Incoming & { readonly head: Uint8Arra
 
 /**
  * By what was seen in files. One without any label is a mask among masks, and a blank frame of the film in a folder that holds frames and no masks
- * besides; graded ones are masks in a folder without frames.
+ * besides; graded ones are masks in a folder without frames. A picture among masks, where frames lie elsewhere or are open (`framesAreOpen`), is a
+ * mask that went wrong, and is told so where it is read: as a frame it would stand in the film.
  */
-export function masksBy<F extends Incoming>(files: readonly F[], looks: ReadonlyMap<F, MaskLook>): ReadonlySet<F> {
+export function masksBy<F extends Incoming>(files: readonly F[], looks: ReadonlyMap<F, MaskLook>, framesAreOpen = false): ReadonlySet<F> {
   const folderOf = ({ name, path }: Incoming) => (path ?? name).slice(0, -name.length);
   const lookOf = (file: F) => looks.get(file) ?? null;
-  const foldersOf = (is: (look: MaskLook) => boolean) => new Set(files.filter((file) => is(lookOf(file))).map(folderOf));
-  const ofFrames = foldersOf((look) => look === null);
-  const ofMasks = foldersOf((look) => typeof look === 'number' && look > 0);
+  const inFolder = (folder: string, is: (look: MaskLook) => boolean) => files.filter((file) => folderOf(file) === folder && is(lookOf(file))).length;
+  const folders = [...new Set(files.map(folderOf))];
+  const ofFrames = new Set(folders.filter((folder) => inFolder(folder, isPicture) > 0));
+  const ofMasks = new Set(folders.filter((folder) => inFolder(folder, hasLabels) > 0));
+  const ofMasksAlone = [...ofMasks].filter((folder) => inFolder(folder, hasLabels) >= MASKS_A_PICTURE * inFolder(folder, isPicture));
+  const framesAreElsewhere = framesAreOpen || [...ofFrames].some((folder) => !ofMasksAlone.includes(folder));
   const isMask = (file: F) => {
     const [look, folder] = [lookOf(file), folderOf(file)];
+    if (look === null) return framesAreElsewhere && ofMasksAlone.includes(folder);
     if (look === 'graded') return !ofFrames.has(folder);
-    return look === 0 ? !ofFrames.has(folder) || ofMasks.has(folder) : look !== null;
+    return look === 0 ? !ofFrames.has(folder) || ofMasks.has(folder) : true;
   };
   return new Set(files.filter(isMask));
 }
+
+/** Frames may lie in one folder with their masks, a few of each frame: so many of one are not of it. */
+const MASKS_A_PICTURE = 5;
+
+const isPicture = (look: MaskLook) => look === null;
+const hasLabels = (look: MaskLook) => typeof look === 'number' && look > 0;
 
 /** So many bytes of a PNG tell its size. */
 const HEAD = 33;

@@ -19,7 +19,7 @@ interface Shape {
 }
 
 /** Items for a proposal, of the image that has this place among those of its kind, and sentences about shapes that are no polygons. */
-export function readLabelme(json: string, file: string, order: number): ReadOutlines {
+export function readLabelme(json: string, file: string, place: Pick<ProposedItem, 'order' | 'images'>): ReadOutlines {
   const { shapes, imagePath, imageWidth, imageHeight } = readFile(parse(json), 'file');
   if (shapes.length === 0) throw new ReadError('there are no shapes in it');
   const image = imagePath === null ? file : fileName(imagePath);
@@ -32,7 +32,7 @@ export function readLabelme(json: string, file: string, order: number): ReadOutl
       continue;
     }
     const outline = { points: points.map(([column, row]) => framePoint(column!, row!)), closed: true, unknownSides: [] };
-    items.push({ label: `${image}, ${label}`, image, order, frameId: null, subject: label, size, outline, exactOutline: null, notes: [] });
+    items.push({ label: `${image}, ${label}`, image, ...place, frameId: null, subject: label, size, outline, exactOutline: null, notes: [] });
   }
   return { items, remarks };
 }

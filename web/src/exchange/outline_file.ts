@@ -73,6 +73,7 @@ function itemOf(frame: FileFrame, order: number, outline: FileOutline): Proposed
     label: `${name}, ${component}`,
     image: name,
     order,
+    images: null,
     frameId: id,
     subject: component,
     size: { width, height },

@@ -10,6 +10,7 @@ import { readRegions } from './imagej';
 import { bytesOf, type Incoming, textOf } from './incoming';
 import { readLabelme } from './labelme';
 import { readOutlines } from './outline_file';
+import { pathOf } from './paths';
 import { maskOfRuns } from './runs';
 
 /** Files of outlines: ours, and those of other programs. */
@@ -25,24 +26,24 @@ export async function readOutlineFiles(files: readonly (Incoming & { readonly ki
   const images = files.filter(({ kind }) => kind === 'labelme');
   for (const file of files) {
     try {
-      const read = await readOne(file, images.indexOf(file));
+      const read = await readOne(file, { order: images.indexOf(file), images: images.length });
       items.push(...read.items);
-      remarks.push(...read.remarks.map((remark) => `${file.name}: ${remark}`));
+      remarks.push(...read.remarks.map((remark) => `${pathOf(file)}: ${remark}`));
     } catch (error) {
-      remarks.push(`${file.name}: ${sentenceOf(error)}`);
+      remarks.push(`${pathOf(file)}: ${sentenceOf(error)}`);
     }
   }
   return { items, remarks };
 }
 
-async function readOne(file: Incoming & { readonly kind: OutlineKind }, order: number): Promise<ReadOutlines> {
+async function readOne(file: Incoming & { readonly kind: OutlineKind }, place: Pick<ProposedItem, 'order' | 'images'>): Promise<ReadOutlines> {
   switch (file.kind) {
     case 'outlines':
       return { items: readOutlines(await textOf(file)), remarks: [] };
     case 'coco':
       return traced(readCoco(await textOf(file)));
     case 'labelme':
-      return readLabelme(await textOf(file), file.name, order);
+      return readLabelme(await textOf(file), file.name, place);
     case 'imagej':
       return readRegions(await bytesOf(file.blob), file.name);
   }
@@ -77,6 +78,7 @@ function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
   const fraction = (100 * differing) / Math.max(1, area);
   return [
     specks > 0 ? exchange.specks(specks) : null,
+    specks > area ? exchange.mostlySpecks : null,
     holes > 0 ? exchange.holes(holes) : null,
     fraction >= 0.5 ? exchange.differing(fraction.toFixed(1)) : null,
   ].filter((note) => note !== null);

@@ -5,7 +5,10 @@ export const exchange = {
   writing: 'Writing masks',
   files: 'files',
   masks: 'masks',
-  emptyMask: (name: string) => `${name} is empty: no pixel of it is set`,
+  emptyMask: (path: string) => `${path} is empty: no pixel of it is set`,
+  uneven: (subject: string, images: number, frames: number) =>
+    `${subject}: ${images} images for ${frames} frames. By order the first goes to frame 1 and so on, so that behind one that is missing all others are at a wrong frame: check the last ones, or give the masks their frames' names.`,
+  mostlySpecks: 'more pixels lie in specks than in the outline: is it a mask?',
   unnamed: 'masks without a name',
   value: (value: number) => `grey value ${value}`,
   specks: (pixels: number) => `specks of ${pixels} px left out`,

@@ -4,11 +4,11 @@ import { addFrames } from '../../src/document/commands';
 import { readCoco, writeCoco } from '../../src/exchange/coco';
 import { importProposal } from '../../src/document/importing';
 import { readOutlines, writeOutlines } from '../../src/exchange/outline_file';
-import { assignments, componentNamed, frameNamed, likelyMatch, type Proposal, type ProposedItem } from '../../src/document/proposal';
+import { assignments, componentNamed, frameNamed, likelyMatch, unevenSubjects, type Proposal, type ProposedItem } from '../../src/document/proposal';
 import { Store } from '../../src/document/store';
 import { cellKey, cellOf, type Doc, type Outline } from '../../src/document/types';
 import { masksOf } from '../../src/exchange/exporter';
-import { masksBy, mayBeMask } from '../../src/exchange/importer';
+import { itemsOf, masksBy, mayBeMask, type ReadMask } from '../../src/exchange/importer';
 import type { MaskLook } from '../../src/workers/protocol/masks';
 import { framePoint } from '../../src/geometry/points';
 
@@ -36,7 +36,7 @@ function proposal(doc: Doc, items: readonly ProposedItem[], more: Partial<Propos
 
 function item(image: string, order: number, more: Partial<ProposedItem> = {}): ProposedItem {
   const size = { width: 100, height: 80 };
-  return { label: image, image, order, frameId: null, subject: 'femur', size, outline: square, exactOutline: null, notes: [], ...more };
+  return { label: image, image, order, images: null, frameId: null, subject: 'femur', size, outline: square, exactOutline: null, notes: [], ...more };
 }
 
 const outlineAt = (store: Store, frame: number, component: 'femur' | 'tibia') => cellOf(store.doc, `f${frame}`, component).outline;
@@ -215,6 +215,50 @@ describe('masks', () => {
   it('are probabilities too, in a folder without frames: a frame of the film may be as black and white', () => {
     expect(masksAmong({ 'f/1.png': null, 'm/1.png': 'graded', 'm/2.png': 'graded', 'm/3.png': 0 })).toEqual(['m/1.png', 'm/2.png', 'm/3.png']);
     expect(masksAmong({ 'f/1.png': null, 'f/2.png': 'graded' })).toEqual([]);
+  });
+
+  it('that went wrong are masks among masks, and no frames of the film', () => {
+    const masks = Object.fromEntries([1, 2, 3, 4, 5].map((number) => [`m/${number}.png`, 1]));
+    expect(masksAmong({ 'f/1.png': null, ...masks, 'm/6.png': null })).toContain('m/6.png');
+    // Frames with the masks of several components beside them are frames.
+    expect(masksAmong({ '1.png': null, '1_femur.png': 1, '1_tibia.png': 1, '1_patella.png': 1 })).not.toContain('1.png');
+    expect(masksAmong({ ...masks, 'm/6.png': null })).not.toContain('m/6.png');
+  });
+
+  const label = { value: 255, points: Float64Array.of(1, 1, 9, 1, 9, 9), exact: Float64Array.of(1, 1, 9, 1, 9, 9), area: 32, specks: 0, holes: 0, differing: 0 };
+  const mask = (path: string, labels = [label]): ReadMask => {
+    const file = { kind: 'mask' as const, name: path.split('/').at(-1)!, path, blob: new Blob() };
+    return { file, place: '', page: { width: 100, height: 80, labels } };
+  };
+
+  it('that are empty or cannot be read keep their places, and are told with their folders', () => {
+    const remarks: string[] = [];
+    const lost: ReadMask = { ...mask('tibia/b.png'), page: null };
+    const read = [mask('femur/a.png', []), mask('femur/b.png'), mask('tibia/a.png'), lost, mask('tibia/c.png')];
+    const items = itemsOf(read, remarks);
+    expect(items.map(({ label, order, images }) => [label, order, images])).toEqual([['femur/b.png', 1, 2], ['tibia/a.png', 0, 3], ['tibia/c.png', 2, 3]]);
+    expect(remarks).toEqual(['femur/a.png is empty: no pixel of it is set']);
+  });
+
+  it('of several values keep theirs too: a value that one picture does not have moves no other', () => {
+    const [one, two] = [{ ...label, value: 1 }, { ...label, value: 2 }];
+    const items = itemsOf([mask('1.png', [one, two]), mask('2.png', [one]), mask('3.png', [one, two])], []);
+    expect(items.filter(({ subject }) => subject.endsWith('2')).map(({ order }) => order)).toEqual([0, 2]);
+  });
+
+  it('that are mostly specks are told', () => {
+    const [item] = itemsOf([mask('femur/a.png', [{ ...label, specks: 40 }])], []);
+    expect(item?.notes.at(-1)).toMatch(/is it a mask\?/);
+  });
+
+  it('of another number than there are frames are told where they go by order', () => {
+    const { doc } = film(['x.dcm', 'y.dcm', 'z.dcm']);
+    const items = itemsOf([mask('femur/a.png'), mask('femur/b.png'), mask('tibia/a.png', []), mask('tibia/b.png'), mask('tibia/c.png', [])], []);
+    expect(likelyMatch(doc, items)).toBe('order');
+    const given = proposal(doc, items);
+    expect(unevenSubjects(doc, given)).toEqual([{ subject: 'femur', images: 2 }]);
+    expect(unevenSubjects(doc, { ...given, match: 'name' })).toEqual([]);
+    expect(unevenSubjects(doc, { ...given, subjects: { femur: null, tibia: 'tibia' } })).toEqual([]);
   });
 
   it('have the names of their frames, each once', () => {

@@ -55,15 +55,15 @@ describe('labelme', () => {
   const file = (shapes: unknown[]) => JSON.stringify({ version: '5.4.1', flags: {}, shapes, imagePath: '..\\films\\0003.png', imageData: null, imageHeight: 480, imageWidth: 640 });
 
   it('gives its polygons, of the image that it names', () => {
-    const { items, remarks } = readLabelme(file([shape('femur', 'polygon', [[1, 2], [30.5, 2], [30, 40]]), shape('tray', 'rectangle', [[1, 2], [3, 4]])]), '0003.json', 2);
-    expect(items).toMatchObject([{ image: '0003.png', order: 2, subject: 'femur', size: { width: 640, height: 480 }, label: '0003.png, femur' }]);
+    const { items, remarks } = readLabelme(file([shape('femur', 'polygon', [[1, 2], [30.5, 2], [30, 40]]), shape('tray', 'rectangle', [[1, 2], [3, 4]])]), '0003.json', { order: 2, images: 9 });
+    expect(items).toMatchObject([{ image: '0003.png', order: 2, images: 9, subject: 'femur', size: { width: 640, height: 480 }, label: '0003.png, femur' }]);
     expect(items[0]!.outline.points[1]).toMatchObject({ column: 30.5, row: 2 });
     expect(remarks).toEqual(['"tray" is a rectangle of 2 points: only polygons are read']);
   });
 
   it('says what is wrong with it', () => {
-    expect(() => readLabelme(file([]), 'a.json', 0)).toThrow('there are no shapes in it');
-    expect(() => readLabelme(file([shape('femur', 'polygon', [[1, 2], [3], [4, 5]])]), 'a.json', 0)).toThrow('file.shapes[0].points[1] should be a pair of numbers, column and row');
+    expect(() => readLabelme(file([]), 'a.json', { order: 0, images: 1 })).toThrow('there are no shapes in it');
+    expect(() => readLabelme(file([shape('femur', 'polygon', [[1, 2], [3], [4, 5]])]), 'a.json', { order: 0, images: 1 })).toThrow('file.shapes[0].points[1] should be a pair of numbers, column and row');
   });
 });
 

@@ -1,6 +1,6 @@
 import { useEffect } from 'preact/hooks';
 import { importProposal } from '../../document/importing';
-import { assignments, componentNamed, isOfMask, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
+import { assignments, componentNamed, isOfMask, unevenSubjects, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
 import type { State, Store } from '../../document/store';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../../terms/component';
 import { later } from '../../texts/later';
@@ -36,6 +36,11 @@ export function ImportSheet({ state }: { state: State }) {
     >
       <Subjects proposal={proposal} change={change} />
       <Options proposal={proposal} change={change} />
+      {unevenSubjects(state.history.present, proposal).map(({ subject, images }) => (
+        <p key={subject} class="sheet-text">
+          {exchange.uneven(subject, images, state.history.present.frames.length)}
+        </p>
+      ))}
       <Assignments rows={rows} proposal={proposal} />
       {proposal.remarks.length > 0 && (
         <ul class="remarks" aria-label={exchange.remarks}>
