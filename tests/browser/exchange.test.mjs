@@ -50,6 +50,19 @@ pageTest('masks give poses', async (page, t) => {
   });
 });
 
+pageTest('masks of other frames are told as such', async (page) => {
+  const count = 4;
+  await panel.openDemonstration(page, count);
+  await panel.waitForLibraries(page, 'Femur', 'Tibia');
+  const names = Array.from({ length: count }, (_, at) => `000${at + 1}.png`);
+  const masks = await Promise.all(names.map(async (name, at) => /** @type {const} */ ([name, (await maskFile('femur', at + 5)).buffer])));
+  await dropFolder(page, 'femur', masks);
+  await importAll(page, count);
+  await panel.waitForWords(page, /^4 of 4 masks of the femur do not lie on the edges of their frames: they may be of other frames\./);
+  await page.getByRole('button', { name: 'Doubtful: look at it' }).click();
+  await page.getByRole('region', { name: 'A doubtful pose' }).getByText('4 of 4 masks of the femur').waitFor();
+});
+
 pageTest('outlines and masks come and go', async (page, t) => {
   /** @type {Record<string, FileToOpen>} */
   const saved = {};

@@ -17,6 +17,7 @@ import type { Corrected, FilmFacts, FilmProtocol, FollowedProfiles, ReadProfiles
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { type Beside, ReadBeside } from './film_beside';
 import { onFrameInput } from './from_here';
+import { MasksTold } from './masks_told';
 import { Pause } from './pause';
 import { sentenceOf, type Services } from './services';
 
@@ -60,6 +61,7 @@ export class FilmReader {
   #asked: string | null = null;
   /** Constants that somebody stated, while they are not taken. */
   #tried: string | null = null;
+  readonly #masks: MasksTold;
   readonly #pause = new Pause();
   #busy = false;
   #waiting: (() => void)[] = [];
@@ -68,6 +70,7 @@ export class FilmReader {
     this.#services = services;
     this.#poses = poses;
     this.#films = films;
+    this.#masks = new MasksTold(services.store);
     services.store.subscribe(() => this.#consider());
     this.#consider();
   }
@@ -169,6 +172,7 @@ export class FilmReader {
     if (!task) {
       const { known } = this.#services.store.doc.film;
       if (known && known === this.#last) this.#rested.set(known, this.#witnesses(() => true));
+      this.#masks.rested();
       return void this.#waiting.splice(0).forEach((go) => go());
     }
     this.#pause.before(FILM_REST, () => void this.#run());
@@ -425,6 +429,7 @@ export class FilmReader {
   }
 
   async #correct(place: Place, result: Posed): Promise<void> {
+    this.#masks.corrected(place.component);
     const input = await onFrameInput(this.#services, place);
     const misfits = misfitsBeside(this.#services.store.doc, place);
     const { chosen } = result;

@@ -11,6 +11,8 @@ export const check = {
   misfit: (pixels: string) => `${pixels} px`,
   joint: (flexion: string, abduction: string, internal: string) => `flexion ${flexion}°, abduction ${abduction}°, internal rotation ${internal}°`,
   jointShort: (flexion: string, abduction: string, internal: string) => [`flex ${flexion}°`, `abd ${abduction}°`, `int ${internal}°`],
+  masksOff: (off: number, of: number, component: string) =>
+    `${off} of ${of} masks of the ${component} do not lie on the edges of their frames: they may be of other frames. Look at which mask went to which frame, and import them again where that is so.`,
   noJoint: 'no joint angles: the other component, the side of the body or the axes are not known',
   despite: 'Another one leaves less in this frame by itself: the frames beside it, the other component and the whole film spoke for the one that is chosen.',
   accept: 'It is right',

@@ -11,6 +11,7 @@ import { turnBetween } from '../../geometry/pose_motion';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { doubtsOf } from '../../results/doubts';
 import { cameraOf } from '../../results/keys';
+import { isOff, masksOff } from '../../results/masks_off';
 import type { Motion } from '../../results/motion';
 import { formatNumber } from '../../texts/numbers';
 import { later } from '../../texts/later';
@@ -69,6 +70,7 @@ function Doubtful({ state, result, counted: { at, of } }: { state: State; result
     <section class={`guide check ${corner} ${state.ui.component}`} aria-label={words.region}>
       <p class="guide-title">{at === 0 ? words.taken : words.title(at, of)}</p>
       <p class="guide-text check-why">{asSentence(verdictOf(result)?.because ?? '')}</p>
+      <OtherFrames state={state} />
       {result.candidates.length > 1 && <Rivals state={state} result={result} />}
       {result.candidates.length > 1 && state.history.present.side === 'unknown' && <AskSide />}
       {result.from === 'film' && leavesMore(result) && <p class="guide-text quiet check-why">{words.despite}</p>}
@@ -76,6 +78,13 @@ function Doubtful({ state, result, counted: { at, of } }: { state: State; result
       <CheckButtons accept={[words.accept, words.acceptTitle]} edit={[words.edit, words.editTitle]} />
     </section>
   );
+}
+
+/** What many masks tell together, under the reason that a single one has: by itself it may be of another implant. */
+function OtherFrames({ state }: { state: State }) {
+  const { component } = state.ui;
+  const told = isOff(currentCell(state)) ? masksOff(state.history.present, component) : null;
+  return told && <p class="guide-text check-why">{later.check.masksOff(told.off, told.of, texts.component[component])}</p>;
 }
 
 /** Whether a rival leaves less in this frame than the pose that is chosen, by what stands under the pictures. */
