@@ -100,7 +100,7 @@ pub enum Doubt {
     },
     /// The outline does not determine the pose, or its rotation no better than [`OTHER_DEG`] (one standard deviation).
     Undetermined,
-    /// On its film other poses leave less: it may lie on other edges, or on the wrong side of the mirror.
+    /// On its film other poses leave less: it may lie on other edges, or be the mirror image of the right pose.
     Unusual {
         /// What it leaves, pixels.
         px: f64,
@@ -249,7 +249,7 @@ impl fmt::Display for Doubt {
                 let [px, limit_px] = Decimal::told_apart(px, limit_px, 2);
                 write!(
                     f,
-                    "{px} px remain, on this film at most {limit_px} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
+                    "{px} px remain between outline and edges, at most {limit_px} px are usual on this film: does it lie on other edges, as an inner rim, or is it the mirror image of the right pose (symmetry trap)?"
                 )
             }
             Self::Open {

@@ -69,7 +69,7 @@ export const panel = {
     bestTitle: 'The pose that was chosen; the reason stands below (X switches)',
     rotations: (x: string, y: string) => `x ${x}, y ${y}`,
     pixels: (count: string) => `${count} px`,
-    drawn: (count: string) => `${count} px drawn`,
+    drawn: (count: string) => `${count} px differ`,
     atBorder:
       'The best view lies at the border of the library: the true rotation may lie beyond it. Choose all directions under the component above.',
     byHand: 'Chosen by hand; X goes back to the best.',

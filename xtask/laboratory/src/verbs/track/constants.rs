@@ -172,7 +172,7 @@ fn read(
         run.request.stop.check()?;
         let name = part.name();
         run.say(format!(
-            "{name} frame {}: profiles of the film are read",
+            "{name} frame {}: grey values across its edges are read",
             frame + 1
         ));
         let profiles = part.see(run.film, frame, |subject, image, memory| {

@@ -92,7 +92,7 @@ fn cross(
                 look(subject, image, frame, trail, memory)
             })
         };
-        let told = "followed from the other side of a jump";
+        let told = "followed from behind a jump";
         let see = || run.step((part, frame), told, &key, look);
         let looked: Looked = settling.over_jump((frame, trail), see)?;
         crossing.saw(frame, looked, (&middle, &part.planes));
@@ -158,7 +158,7 @@ fn seen(
     settling: &Settling,
 ) -> Result<Vec<SideSample>> {
     let (what, told) = match rival {
-        Rival::Mirrored => ("mirror", "seen from the other side"),
+        Rival::Mirrored => ("mirror", "compared with its mirror image"),
         Rival::Elsewhere => ("elsewhere", "other poses near by"),
     };
     let look = |frame: usize, own: &FramePose, mirrored: Option<&FramePose>| {
