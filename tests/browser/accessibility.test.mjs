@@ -52,7 +52,7 @@ pageTest('accessibility', async (page, t) => {
     await panel.openDemonstration(page);
     const usual = page.viewportSize();
     await page.setViewportSize({ width: 1440, height: 900 });
-    await page.getByText('Step 2 of 5', { exact: true }).waitFor();
+    await page.getByText('Step 2 of 5: First frame', { exact: true }).waitFor();
     const steps = await page.getByRole('list', { name: 'Steps' }).boundingBox();
     assert(steps && steps.width <= 1, 'names of steps stand beside the button that leads on');
     if (usual) await page.setViewportSize(usual);

@@ -20,6 +20,7 @@ export function StepBar({ state }: { state: State }) {
       </ol>
       <span class="way-count" aria-hidden="true" title={shown.map((one) => names[one]).join(' › ')}>
         {count(1 + shown.indexOf(step), shown.length)}
+        <span class="way-name">: {names[step]}</span>
       </span>
     </>
   );
