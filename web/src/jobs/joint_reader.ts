@@ -86,9 +86,9 @@ export class JointReader {
     return { known, facts: this.#open.facts };
   }
 
-  /** Works the numbers of one frame out, if they are not known and nothing else is being worked out. */
-  async lookAt(frameId: string): Promise<void> {
-    await this.#lookAt(jointAskedIn(this.#services.store.doc, frameId));
+  /** Works the numbers of one frame out, if they are not known. False where they cannot be yet: something else is being worked out, or models are on their way. */
+  lookAt(frameId: string): Promise<boolean> {
+    return this.#lookAt(jointAskedIn(this.#services.store.doc, frameId));
   }
 
   /** A text of the joint whose numbers are known, by the core. */
@@ -116,18 +116,21 @@ export class JointReader {
     if (store.ui.joint.open || store.ui.popover === 'export') await this.#lookAt(jointAsked(store.doc));
   }
 
-  async #lookAt(asked: JointAsked | null): Promise<void> {
+  /** Whether there is an answer, be it that there is none. */
+  async #lookAt(asked: JointAsked | null): Promise<boolean> {
     const { store } = this.#services;
-    if (this.#busy || !asked || asked.frames.length === 0 || !this.#hasMeshes(asked)) return;
+    if (!asked || asked.frames.length === 0) return true;
+    if (this.#busy || !this.#hasMeshes(asked)) return false;
     const key = keyOf(asked);
     const frames = this.#open?.key === key && this.#key === key ? this.#missing(asked) : asked.frames;
-    if (frames.length === 0 || this.#refusedJoints.has(key)) return;
+    if (frames.length === 0 || this.#refusedJoints.has(key)) return true;
     const some = this.#some(frames);
     this.#busy = true;
     try {
       await this.#workOut(asked, key, some);
+      return true;
     } catch (error) {
-      this.#failed(error, key, some);
+      return this.#failed(error, key, some);
     } finally {
       this.#busy = false;
       // No part of the state: the views are notified, and the rest is looked at.
@@ -158,15 +161,19 @@ export class JointReader {
     });
   }
 
-  /** What a stopped worker held is gone, and it is opened anew: twice, because this may be what stops it. */
-  #failed(error: unknown, key: string, frames: readonly JointFrame[]): void {
+  /** What a stopped worker held is gone, and it is opened anew: twice, because this may be what stops it. False where it may be asked again. */
+  #failed(error: unknown, key: string, frames: readonly JointFrame[]): boolean {
     const wasOpen = this.#open?.key === key;
     if (error instanceof WorkerStopped) this.#open = null;
-    if (error instanceof Aborted || (error instanceof WorkerStopped && ++this.#stops < 3)) return;
-    if (wasOpen && frames.length > 1) return frames.forEach(({ femur }) => this.#alone.add(femur));
+    if (error instanceof Aborted || (error instanceof WorkerStopped && ++this.#stops < 3)) return false;
+    if (wasOpen && frames.length > 1) {
+      frames.forEach(({ femur }) => this.#alone.add(femur));
+      return false;
+    }
     if (wasOpen) frames.forEach((frame) => this.#refuse(frame));
     else this.#refusedJoints.add(key);
     this.#services.store.say('error', sentenceOf(error));
+    return true;
   }
 
   /** What was known of it is of the poses before. */

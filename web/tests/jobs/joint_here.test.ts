@@ -18,6 +18,7 @@ it('asks once for the frame on which somebody rests, and not for those that pass
       asked.push(id);
       // As the reader does, whether there is an answer or not.
       store.show({});
+      return true;
     },
   });
   store.perform(addFrames([0, 1, 2].map((k) => ({ id: `f${k}`, name: `f${k}`, source: 's', indexInSource: k, width: 8, height: 8 }))));
@@ -34,4 +35,24 @@ it('asks once for the frame on which somebody rests, and not for those that pass
   store.show({ tool: 'edit' });
   await rest();
   expect(asked).toEqual(['f1', 'f0']);
+});
+
+it('asks again where nothing could be asked yet: after a reload the models come later than the frame is on view', async () => {
+  const store = new Store();
+  let areModelsHere = false;
+  let answers = 0;
+  readJointHere(store, {
+    rowOf: () => (answers > 0 ? new Map() : null),
+    lookAt: async () => {
+      if (areModelsHere) answers += 1;
+      return areModelsHere;
+    },
+  });
+  store.perform(addFrames([{ id: 'f0', name: 'f0', source: 's', indexInSource: 0, width: 8, height: 8 }]));
+  await rest();
+  areModelsHere = true;
+  // Models are no part of the document: whoever waits for them is told.
+  store.show({});
+  await rest();
+  expect(answers).toBe(1);
 });

@@ -65,6 +65,14 @@ describe('the reader of the joint', () => {
     expect(reader.rowOf('f5')).toBe(null);
   });
 
+  it('says where a frame could not be asked yet, as something else is being worked out', async () => {
+    const { reader } = bench();
+    const first = reader.lookAt('f5');
+    expect(await reader.lookAt('f6')).toBe(false);
+    expect(await first).toBe(true);
+    expect(await reader.lookAt('f6')).toBe(true);
+  });
+
   it('works a frame out again whose pose has changed', async () => {
     const { store, reader, asked, rest } = bench();
     store.setJoint({ open: true });
