@@ -7,6 +7,7 @@ import { choose, drop, dropPaths, temporaryFolder } from './support/files.mjs';
 import { dicom, greyAt, jpeg, png, SIZE, tiff } from './support/frames.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
+import { demoFile, framePath } from './support/study.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -24,6 +25,26 @@ const KINDS = [
   { what: 'a TIFF of two 16-bit pages', make: async () => tiff([TIMES_200, REVERSED]), frames: [TIMES_200, REVERSED] },
   { what: 'a DICOM file of two frames', make: async () => dicom([TIMES_16, SAME]), frames: [TIMES_16, SAME] },
 ];
+
+pageTest('what is dropped before the page has begun is opened once it has, into the work that comes back', async (page) => {
+  await drop(page, await demoFile(framePath(1)), await demoFile(framePath(2)));
+  await panel.waitForFrames(page, 2);
+  await panel.waitUntilKept(page);
+  // The module without which nothing begins is held back.
+  let letGo = () => undefined;
+  const held = new Promise((resolve) => (letGo = () => void resolve(undefined)));
+  await page.route(/fluoropose_page_bg.*\.wasm$/, async (route) => {
+    await held;
+    await route.continue();
+  });
+  const asked = page.waitForRequest(/fluoropose_page_bg.*\.wasm$/);
+  await page.reload({ waitUntil: 'commit' });
+  await asked;
+  await drop(page, await demoFile(framePath(3)));
+  letGo();
+  await panel.waitForFrames(page, 3);
+  await panel.waitForWords(page, /Opened the frame 0003\.png/);
+});
 
 pageTest('frames of every kind', async (page, t) => {
   const stage = new Stage(page);

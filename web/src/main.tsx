@@ -38,6 +38,7 @@ import { sentenceOf, type Services } from './jobs/services';
 import { frameDecoder } from './films/decoding';
 import { Studio } from './films/studio';
 import { FramesAhead } from './jobs/frames_ahead';
+import { type Dropped, takeDrops } from './exchange/browser_files';
 import { Videos } from './exchange/videos';
 import { atRest, shown } from './workers/activity';
 import { decodeWorker, filmWorker, poseWorker } from './workers/start';
@@ -53,6 +54,8 @@ import { SeeingActions } from './commands/seeing_actions';
 import { rememberTaste } from './keep/taste';
 
 async function start(root: HTMLElement): Promise<void> {
+  let begin: (open: (dropped: Dropped) => void) => void;
+  takeDrops(new Promise((resolve) => (begin = resolve)));
   const assets = new Assets();
   const studio = await Studio.open(frameDecoder(assets, decodeWorker()));
   const matcher = poseWorker();
@@ -122,7 +125,9 @@ async function start(root: HTMLElement): Promise<void> {
     root,
   );
   Object.assign(globalThis, { fluoropose: { atRest, shown } });
-  if (kept) await restoreWork(services, keeper, kept);
+  if (kept) actions.restored = restoreWork(services, keeper, kept);
+  begin!((dropped) => void actions.openDropped(dropped));
+  await actions.restored;
   tellLostJobs(services.store, attempt(() => sessionStorage), () => actions.run({ name: 'work', command: 'follow-film' }));
 }
 

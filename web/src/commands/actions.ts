@@ -17,7 +17,7 @@ import { Aborted } from '../workers/bridge';
 import { ended } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import { TracingActions } from './tracing_actions';
-import { download, droppedFiles, pickFiles } from '../exchange/browser_files';
+import { download, type Dropped, pickFiles } from '../exchange/browser_files';
 import { troubleOf } from '../exchange/trouble';
 import { sessionName } from '../terms/file_name';
 import { pointerStore } from './pointer';
@@ -54,6 +54,9 @@ export class Actions {
 
   /** Set when there are any: pictures of videos come back through `open`. */
   videos: Pick<Videos, 'begin'> | null = null;
+
+  /** The work of before comes back first: it would take the place of what is opened meanwhile. */
+  restored: Promise<unknown> = Promise.resolve();
 
   /** Marks, notes and what is next. */
   readonly work: WorkActions;
@@ -294,11 +297,9 @@ export class Actions {
   }
 
   /** Opens what was dropped; what the browser does not give of it is said last. */
-  async openDropped(transfer: DataTransfer): Promise<void> {
-    const troubles: string[] = [];
-    const files = await droppedFiles(transfer, (path, error) => troubles.push(troubleOf(path, error)));
-    await this.openLocated(files);
-    if (troubles.length > 0) this.#store.say('error', troubles.map(ended).join(' '));
+  async openDropped({ files, troubles }: Dropped): Promise<void> {
+    await this.openLocated(await files);
+    if (troubles.length > 0) this.#store.say('error', troubles.map((trouble) => ended(troubleOf(...trouble))).join(' '));
   }
 
   /** Opens files, whatever they are. */
@@ -314,6 +315,7 @@ export class Actions {
     if (files.length === 0) return isHere;
     await this.#telling(async () => {
       const { openFiles } = await import('../exchange/opener');
+      await this.restored;
       isHere = await openFiles(this.#services, files, (file) => this.videos?.begin(file));
     });
     return isHere;
@@ -322,6 +324,7 @@ export class Actions {
   async openDemonstration(): Promise<void> {
     await this.#telling(async () => {
       const { openDemonstration } = await import('../exchange/demonstration');
+      await this.restored;
       await openDemonstration(this.#services);
     });
   }

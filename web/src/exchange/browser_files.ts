@@ -27,6 +27,31 @@ export function download(parts: BlobPart[], name: string, type: string): void {
 /** Is told of what the browser does not give: a right is missing, a disk or a file of the cloud is away. */
 export type TellTrouble = (path: string, error: unknown) => void;
 
+/** Files of a drop on their way, and what the browser does not give of it. */
+export interface Dropped {
+  readonly files: Promise<readonly Located[]>;
+  readonly troubles: readonly (readonly [path: string, error: unknown])[];
+}
+
+/**
+ * Takes every drop of files from now on, and hands it on once there is something that opens it: a browser that is left alone with a drop shows the
+ * file in the page's place.
+ */
+export function takeDrops(open: Promise<(dropped: Dropped) => void>): void {
+  addEventListener('dragover', (event) => carriesFiles(event) && event.preventDefault());
+  addEventListener('drop', (event) => {
+    event.preventDefault();
+    if (!event.dataTransfer) return;
+    const troubles: [string, unknown][] = [];
+    const files = droppedFiles(event.dataTransfer, (...trouble) => troubles.push(trouble));
+    void open.then((take) => take({ files, troubles }));
+  });
+}
+
+export function carriesFiles({ dataTransfer }: DragEvent): boolean {
+  return dataTransfer?.types.includes('Files') ?? false;
+}
+
 /** The files of a drop, those in dropped folders too. What cannot be had leaves the others. */
 export async function droppedFiles(transfer: DataTransfer, tell: TellTrouble): Promise<Located[]> {
   // Entries must be taken before anything is awaited: the transfer is emptied when the event ends.
