@@ -10,6 +10,7 @@ import { demoFile, framePath, truePose } from './support/study.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
+/** @typedef {import('./support/masks.mjs').Mask} Mask */
 
 const FRAMES = 3;
 /** What the true mask gives, a little over the worst of these frames when simplified to 0.4 px. */
@@ -96,6 +97,33 @@ pageTest('outlines and masks come and go', async (page, t) => {
   }
 });
 
+pageTest('outlines of other programs', async (page, t) => {
+  await openFrames(page, 'femur.stl');
+  const tray = maskOf((await maskFile('tibia', 1)).buffer);
+
+  await step(page, t, 'an array of masks, run lengths and polygons are shown with their frames', async () => {
+    const femurs = await Promise.all([1, 2, 3].map(async (frame) => maskOf((await maskFile('femur', frame)).buffer)));
+    const polygon = { label: 'tibia', shape_type: 'polygon', points: [[100, 100], [300, 100.5], [300, 300]] };
+    const labelme = { version: '5.4.1', flags: {}, shapes: [polygon], imagePath: '../x/0002.png', imageWidth: SIDE, imageHeight: SIDE };
+    await drop(page, file('femur.npy', arrayOf(femurs)), file('runs.json', runsOf('0001.png', 'tibia', tray)), file('0002.json', JSON.stringify(labelme)));
+    const wanted = ['femur.npy #1 1 femur', 'femur.npy #2 2 femur', 'femur.npy #3 3 femur', '0001.png, tibia (annotation 1) 1 tibia', '0002.png, tibia 2 tibia'];
+    const shown = async () => (await proposed(page)).map(({ from, to }) => `${from} ${to.replace(/^frame (\d).*, /, '$1 ')}`);
+    await until(shown, (rows) => isDeepStrictEqual(rows.toSorted(), wanted.toSorted()), wanted.join('; '));
+    await screenshot(page, 'import of others');
+  });
+
+  await step(page, t, 'poses are those of the masks, and masks leave as they came', async () => {
+    await page.getByRole('checkbox', { name: /^Exactly along the pixels/ }).check();
+    await importAll(page, 5);
+    await panel.waitForLibraries(page, 'Femur');
+    await page.getByRole('button', { name: 'Frame 2, femur' }).click();
+    await atRest(page);
+    panel.assertNear(await panel.waitForPose(page), await truePose('femur', 2), FROM_MASK);
+    const files = unzipped(await exported(page, 'Outlines', 'Masks'));
+    assert.equal(differing(maskOf(files['tibia/0001.png']), tray), 0);
+  });
+});
+
 pageTest('blank frames stay in the film', async (page) => {
   const blank = (/** @type {string} */ name, /** @type {number} */ grey) => drawnMask(name, SIDE, SIDE, () => grey);
   await drop(page, await demoFile(framePath(1)), blank('0002.png', 0), blank('0003.png', 255), await demoFile(framePath(4)));
@@ -174,7 +202,7 @@ pageTest('what does not fit is said', async (page, t) => {
     await choose(page, file('none.json', '{"images":[],"annotations":[],"categories":[]}'));
     await panel.waitForWords(page, /^none\.json: there are no annotations/);
     await choose(page, file('runs.json', coco({ counts: [4, 5], size: [SIDE, SIDE] })));
-    await panel.waitForWords(page, /^runs\.json: annotation \d+ .* run-length encoded/);
+    await panel.waitForWords(page, /^runs\.json: annotation \d+ .* has run lengths that do not fill its image/);
     assert.deepEqual(await panel.cells(page), before);
   });
 
@@ -217,4 +245,22 @@ function coco(segmentation = [[100, 100, 300, 100, 300, 300, 100, 300]]) {
   const images = [1, 2, 3].map((id) => ({ id, file_name: `export_${'abc'[id - 1]}.png`, width: SIDE, height: SIDE }));
   const annotations = [1, 3].map((image_id, index) => ({ id: index + 1, image_id, category_id: 5, segmentation }));
   return JSON.stringify({ images, annotations, categories: [{ id: 5, name: 'Shield' }] });
+}
+
+/** Masks as NumPy writes an array of truths. @param {readonly Mask[]} masks */
+function arrayOf(masks) {
+  const header = `{'descr': '|b1', 'fortran_order': False, 'shape': (${masks.length}, ${SIDE}, ${SIDE}), }\n`;
+  return Buffer.concat([Buffer.from(`\x93NUMPY\x01\0${String.fromCharCode(header.length)}\0${header}`, 'latin1'), ...masks.map(({ inside }) => Uint8Array.from(inside, Number))]);
+}
+
+/** A mask in COCO's run lengths. @param {string} image @param {string} name @param {Mask} mask */
+function runsOf(image, name, { inside }) {
+  const counts = [0];
+  for (let at = 0; at < SIDE * SIDE; at++) {
+    const isInside = inside[(at % SIDE) * SIDE + Math.floor(at / SIDE)];
+    if (isInside !== (counts.length % 2 === 0)) counts.push(0);
+    counts[counts.length - 1]++;
+  }
+  const annotations = [{ id: 1, image_id: 7, category_id: 2, segmentation: { size: [SIDE, SIDE], counts } }];
+  return JSON.stringify({ images: [{ id: 7, file_name: image, width: SIDE, height: SIDE }], annotations, categories: [{ id: 2, name }] });
 }
