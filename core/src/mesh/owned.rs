@@ -160,6 +160,8 @@ fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults, Vec<u32>) {
 mod tests {
     use super::*;
     use crate::math::{cross, dot};
+    use crate::mesh::edges::fake::torus;
+    use proptest::prelude::*;
 
     #[test]
     fn numbers_stay_where_they_came_and_a_closed_surface_has_no_faults() {
@@ -217,6 +219,46 @@ mod tests {
         let [alone, among] = [&alone, &among].map(OwnedModel::as_model);
         assert_eq!(among.bounds(), alone.bounds());
         assert_eq!(among.digest(), alone.digest());
+    }
+
+    properties! {
+        /// Of a torus within another, and of any triangles.
+        #[test]
+        fn what_was_turned_runs_as_its_neighbours_do(
+            turned in proptest::collection::vec(any::<bool>(), 336),
+            corners in proptest::collection::vec(proptest::array::uniform3(0u32..12), 1..30),
+            is_torus in any::<bool>(),
+        ) {
+            let (vertices, mut given) = torus(&[0.0]);
+            if !is_torus {
+                given = corners;
+            }
+            for (triangle, &turned) in given.iter_mut().zip(&turned) {
+                if turned {
+                    triangle.swap(1, 2);
+                }
+            }
+            let drawn = |triangles: &[[u32; 3]]| {
+                // All vertices are named, so that none gets another number.
+                let all = (0..vertices.len() as u32).map(|vertex| [vertex; 3]);
+                let triangles: Vec<[u32; 3]> = triangles.iter().copied().chain(all).collect();
+                OwnedModel::drawn(vertices.concat(), triangles.concat()).expect("valid")
+            };
+            let once = drawn(&given);
+            let found = &once.as_model().triangles()[..given.len()];
+            let are_turned = given.iter().zip(found).filter(|(own, found)| own != found);
+            prop_assert_eq!(are_turned.clone().count(), once.faults().flipped);
+            for ([a, b, c], found) in are_turned {
+                prop_assert_eq!(&[*a, *c, *b], found);
+            }
+            let again = drawn(found);
+            prop_assert_eq!(again.faults().flipped, 0);
+            prop_assert_eq!(&again.as_model().triangles()[..given.len()], found);
+            if is_torus {
+                // Each of the two runs as one of its triangles did.
+                prop_assert_eq!(once.edges.rims.len(), 0);
+            }
+        }
     }
 
     #[test]

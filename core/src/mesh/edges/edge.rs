@@ -40,3 +40,29 @@ pub struct RimEdge {
 
 /// An edge as vertices: from, to, and the third ones of the triangles that run it forth and back.
 pub type PackedEdge = [u16; 4];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    properties! {
+        #[test]
+        fn what_is_kept_of_needs_is_no_less_and_hardly_more(
+            needs in proptest::array::uniform2(prop_oneof![0.0..1e-3f32, 0.0..9.0f32, 0.0..1e30f32]),
+        ) {
+            let mut edge = MeshEdge::default();
+            edge.keep_needs(needs);
+            for (kept, need) in edge.needs().into_iter().zip(needs) {
+                prop_assert!(kept >= need && kept <= 1.01 * need + f32::MIN_POSITIVE, "{} {}", kept, need);
+            }
+        }
+    }
+
+    #[test]
+    fn a_need_beyond_all_numbers_stays_so() {
+        let mut edge = MeshEdge::default();
+        edge.keep_needs([f32::INFINITY, f32::MAX]);
+        assert_eq!(edge.needs(), [f32::INFINITY; 2]);
+    }
+}

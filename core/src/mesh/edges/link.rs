@@ -209,6 +209,8 @@ fn rim(half: &MeshEdge) -> RimEdge {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::collection::vec as vec_of;
+    use proptest::prelude::*;
     use std::vec;
     use std::vec::Vec;
 
@@ -313,9 +315,63 @@ mod tests {
             groups,
         } = needs;
         assert_eq!(link_with(halves, numbers, groups, 3), Ok(()));
-        assert!(link_with(halves - 1, numbers, groups, 3).is_err());
-        assert!(link_with(halves, numbers - 1, groups, 3).is_err());
-        assert!(link_with(halves, numbers, 0, 3).is_err());
-        assert!(link_with(halves, numbers, groups, 2).is_err());
+        let error = |what, needed, given| {
+            Err(TooLittleMemory {
+                what,
+                needed,
+                given,
+            })
+        };
+        for (given, expected) in [
+            (
+                [halves - 1, numbers, groups, 3],
+                error("sides of triangles", 9, 8),
+            ),
+            ([halves, numbers - 1, groups, 3], error("numbers", 11, 10)),
+            ([halves, numbers, 0, 3], error("boxes of edges", 1, 0)),
+            // It is not known before how many there are: one more than there was room for.
+            (
+                [halves, numbers, groups, 1],
+                error("rims of triangles", 2, 1),
+            ),
+        ] {
+            let [halves, numbers, groups, rims] = given;
+            assert_eq!(link_with(halves, numbers, groups, rims), expected);
+        }
+    }
+
+    properties! {
+        /// Holes, several triangles at an edge, vertices at one place, windings of both kinds.
+        #[test]
+        fn every_side_is_of_one_edge_or_rim_and_no_two_rims_could_be_paired(
+            places in vec_of(proptest::array::uniform3(0u8..3), 3..12),
+            corners in vec_of(proptest::array::uniform3(0u32..12), 1..30),
+        ) {
+            let vertices: Vec<[f32; 3]> = places.iter().map(|place| place.map(f32::from)).collect();
+            let count = vertices.len() as u32;
+            let triangles: Vec<[u32; 3]> = corners.iter().map(|corners| corners.map(|corner| corner % count)).collect();
+            prop_assume!(Mesh::new(&vertices, &triangles).is_ok());
+            let (edges, rims, faults) = linked(&vertices, &triangles);
+            let at = |vertex: u32| places[vertex as usize];
+            // Sides with their third corners as places, whichever way they are run.
+            let side = |from: u32, to: u32, third: u32| {
+                let (from, to) = (at(from), at(to));
+                (from.min(to), from.max(to), at(third))
+            };
+            let of_edges = edges.iter().flat_map(|edge| [side(edge.from, edge.to, edge.forth), side(edge.from, edge.to, edge.back)]);
+            let of_rims = rims.iter().map(|rim| side(rim.from, rim.to, rim.third));
+            let mut found: Vec<_> = of_edges.chain(of_rims).collect();
+            let covers = |[a, b, c]: &&[u32; 3]| at(*a) != at(*b) && at(*b) != at(*c) && at(*c) != at(*a);
+            let sides = triangles.iter().filter(covers);
+            let mut expected: Vec<_> = sides.flat_map(|&[a, b, c]| [side(a, b, c), side(b, c, a), side(c, a, b)]).collect();
+            found.sort_unstable();
+            expected.sort_unstable();
+            prop_assert_eq!(found, expected);
+            prop_assert_eq!(faults.degenerate, triangles.iter().filter(|triangle| !covers(triangle)).count());
+            prop_assert_eq!(faults.rims, rims.len());
+            for rim in &rims {
+                prop_assert!(rims.iter().all(|other| (other.from, other.to) != (rim.to, rim.from)));
+            }
+        }
     }
 }

@@ -92,3 +92,80 @@ fn minus(p: &[f32; 3], q: &[f32; 3]) -> [f32; 3] {
 fn length(p: &[f32; 3]) -> f32 {
     p[0].abs() + p[1].abs() + p[2].abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tight::GroupRoom;
+    use super::*;
+    use proptest::array::{uniform3, uniform4};
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Six times the volume of a triangle and a place, of whole numbers so small that 32 bits hold it.
+    fn volume([a, b, c]: [[i32; 3]; 3], place: [i32; 3]) -> i32 {
+        let from = |p: [i32; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+        let ([x, y, z], [d, e, f], [g, h, i]) = (from(place), from(b), from(c));
+        x * (e * i - f * h) + y * (f * g - d * i) + z * (d * h - e * g)
+    }
+
+    fn whole() -> impl Strategy<Value = [i32; 3]> {
+        uniform3(-9..=9)
+    }
+
+    fn floats(place: [i32; 3]) -> [f32; 3] {
+        place.map(|x| x as f32)
+    }
+
+    properties! {
+        #[test]
+        fn an_edge_is_on_the_contour_where_one_of_its_triangles_faces_the_camera(
+            corners in vec(whole(), 3..9), edges in vec(uniform4(0..9u16), 1..16), camera in uniform3(-60..=60),
+        ) {
+            let vertices: Vec<[f32; 3]> = corners.iter().copied().map(floats).collect();
+            let mut room = GroupRoom::EMPTY;
+            let group = room.listed(&edges);
+            let mut found = Vec::new();
+            let mut visit = |edge, faces| found.push((group.edge(edge), faces));
+            contour_of(&floats(camera), [0.0; 3], (&group, &vertices), &mut visit);
+            let known = edges.iter().filter(|edge| edge.iter().all(|&vertex| usize::from(vertex) < corners.len()));
+            let expected: Vec<_> = known
+                .filter_map(|edge| {
+                    let [from, to, forth, back] = edge.map(|vertex| corners[usize::from(vertex)]);
+                    let volumes = [volume([from, to, forth], camera), volume([to, from, back], camera)];
+                    let faces = volumes.map(|volume| volume < 0);
+                    match volumes.contains(&0) {
+                        true => Some((*edge, None)),
+                        false => (faces[0] != faces[1]).then_some((*edge, Some(faces))),
+                    }
+                })
+                .collect();
+            prop_assert_eq!(found, expected);
+        }
+
+        /// By the longest side itself: what is measured is no shorter, and no longer than twice the root of three times that.
+        #[test]
+        fn a_side_is_certain_beyond_its_margin(
+            corners in uniform4(whole()), camera in uniform3(-60..=60), margins in uniform3(prop_oneof![Just(0.0f32), 0.0..200.0f32]),
+        ) {
+            let [from, to, forth, back] = corners;
+            let squared = |p: [i32; 3], q: [i32; 3]| (0..3).map(|k| (p[k] - q[k]).pow(2)).sum::<i32>();
+            let beyond = |third: [i32; 3], factor: f64| {
+                let sides = [squared(from, to), squared(to, third), squared(third, from)];
+                let longest = crate::math::sqrt(f64::from(sides.into_iter().fold(0, i32::max)));
+                let [per_mm, least, rounding] = margins.map(f64::from);
+                let (own, twice) = (factor * longest * per_mm, factor * factor * longest * longest * rounding / 10.0);
+                f64::from(volume([from, to, third], camera).abs()) - own - twice - least
+            };
+            let [per_mm, least, rounding] = margins;
+            let places = corners.map(floats);
+            let told = surely_off(&floats(camera), [per_mm, least, rounding / 10.0], places.each_ref());
+            let both = |factor: f64| beyond(forth, factor).min(beyond(back, factor));
+            if told.is_some() {
+                prop_assert!(both(1.0) > -1e-3);
+            } else {
+                prop_assert!(both(12f64.sqrt()) < 1e-3);
+            }
+        }
+    }
+}

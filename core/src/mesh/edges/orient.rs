@@ -102,3 +102,54 @@ pub(super) fn run_end(halves: &[MeshEdge], start: usize) -> usize {
     let same = |edge: &&MeshEdge| (edge.from, edge.to) == (first.from, first.to);
     start + halves[start..].iter().take_while(same).count()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    const COUNT: u32 = 40;
+
+    properties! {
+        /// Oracle: every vertex beside every other.
+        #[test]
+        fn a_vertex_is_welded_to_the_first_at_its_place(
+            places in vec(proptest::array::uniform3(prop_oneof![Just(0.0f32), Just(-0.0), Just(1.0), Just(-1.0)]), 2..30),
+        ) {
+            let Ok(mesh) = Mesh::new(&places, &[[0, 0, 1]]) else { return Ok(()) };
+            let (mut order, mut same) = (vec![0; places.len()], vec![0; places.len()]);
+            let welded = weld(&mesh, &mut order, &mut same);
+            let first = |place: &[f32; 3]| places.iter().position(|other| other == place);
+            let expected: Vec<usize> = places.iter().filter_map(first).collect();
+            let same: Vec<usize> = same.iter().map(|&vertex| vertex as usize).collect();
+            prop_assert_eq!(&same, &expected);
+            prop_assert_eq!(welded, (0..).zip(&same).filter(|(own, first)| own != *first).count());
+        }
+
+        /// Which way each triangle runs is drawn first and tells what neighbours say of each other. Oracle: numbers of pieces, written anew at each
+        /// join.
+        #[test]
+        fn triangles_that_are_joined_run_as_their_neighbours_say(
+            ways in vec(any::<bool>(), COUNT as usize), pairs in vec((0..COUNT, 0..COUNT), 0..60),
+        ) {
+            let mut parents = vec![0; COUNT as usize];
+            let mut orientation = Orientation::new(&mut parents);
+            let mut pieces: Vec<u32> = (0..COUNT).collect();
+            let way = |triangle: u32| ways[triangle as usize];
+            for (a, b) in pairs {
+                orientation.join(a, b, way(a) != way(b));
+                let [one, other] = [a, b].map(|triangle| pieces[triangle as usize]);
+                for piece in pieces.iter_mut().filter(|piece| **piece == one.max(other)) {
+                    *piece = one.min(other);
+                }
+            }
+            for (triangle, &lowest) in (0..).zip(&pieces) {
+                let (root, against) = orientation.root(triangle);
+                prop_assert_eq!((root, against), (lowest, way(triangle) != way(lowest)));
+            }
+        }
+    }
+}

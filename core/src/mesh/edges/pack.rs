@@ -68,3 +68,41 @@ pub fn pack_edges<'m>(
     }
     Ok(PackedEdges::new(boxes, packed, rims).filter(|_| small))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Mesh;
+    use crate::mesh::edges::fake::Linked;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// What is left of the memory that two triangles with a side in common take, with the last of its corners at a number.
+    fn packed(highest: usize, fewer: [usize; 3]) -> Result<bool, TooLittleMemory> {
+        let mut vertices: Vec<[f32; 3]> = vec![[0.0; 3]; highest + 1];
+        vertices[1] = [1.0, 0.0, 0.0];
+        vertices[2] = [0.0, 1.0, 0.0];
+        vertices[highest] = [1.0, 1.0, 0.0];
+        let triangles = [[0, 1, 2], [2, 1, highest as u32]];
+        let linked = Linked::new(&Mesh::new(&vertices, &triangles).expect("valid"));
+        let needs = packed_needed(&linked.edges());
+        assert_eq!((needs.boxes, needs.edges, needs.rims), (1, 1, 4));
+        let memory = PackMemory {
+            boxes: &mut vec![[0.0; 10]; needs.boxes - fewer[0]],
+            edges: &mut vec![[0; 4]; needs.edges - fewer[1]],
+            rims: &mut vec![[0; 3]; needs.rims - fewer[2]],
+        };
+        pack_edges(&linked.edges(), memory).map(|edges| edges.is_some())
+    }
+
+    #[test]
+    fn a_vertex_beyond_sixteen_bits_is_not_packed_and_too_little_memory_is_an_error() {
+        assert_eq!(packed(65_535, [0; 3]), Ok(true));
+        assert_eq!(packed(65_536, [0; 3]), Ok(false));
+        for slice in 0..3 {
+            let mut fewer = [0; 3];
+            fewer[slice] = 1;
+            assert!(packed(9, fewer).is_err());
+        }
+    }
+}

@@ -147,8 +147,8 @@ pub(crate) fn unpacked(edge: &PackedEdge) -> MeshEdge {
 
 #[cfg(test)]
 mod tests {
-    use crate::mesh::Mesh;
     use crate::mesh::edges::fake::Linked;
+    use crate::mesh::{Mesh, Model};
     use proptest::prelude::*;
     use std::vec::Vec;
 
@@ -177,11 +177,22 @@ mod tests {
                 corners.iter().map(|corners| corners.map(|corner| corner % vertices.len() as u32)).collect();
             let Ok(mesh) = Mesh::new(&vertices, &triangles) else { return Ok(()) };
             let packed = Linked::new(&mesh).packed();
+            // As a file keeps it, which leaves the triangles out.
+            let digest = mesh.digest();
+            let alone = Mesh::known(&vertices, &[], mesh.bounds(), &digest);
             for edges in [packed.edges(), packed.tight_edges()] {
-                let mut found = Vec::new();
                 let (packed, _) = edges.packed().expect("packed");
-                packed.for_each_triangle(|&triangle| found.push(triangle));
+                let visited = |mesh: Mesh<'_>| {
+                    let mut found = Vec::new();
+                    Model::packed(mesh, *packed).for_each_triangle(|&triangle| found.push(triangle));
+                    found
+                };
+                let found = visited(alone);
                 prop_assert_eq!(places(&vertices, &found), places(&vertices, &triangles));
+                prop_assert_eq!(&visited(mesh), &triangles);
+                prop_assert_eq!(packed.are_some(), !found.is_empty());
+                let needed = found.iter().flatten().max().map_or(0, |&highest| highest as usize + 1);
+                prop_assert!(packed.fit(needed) && (0..needed).all(|fewer| !packed.fit(fewer)));
             }
         }
     }

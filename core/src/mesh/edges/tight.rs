@@ -280,8 +280,10 @@ impl TightGroup<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tighten::tightened;
     use super::*;
     use proptest::prelude::*;
+    use std::vec::Vec;
 
     properties! {
         #[test]
@@ -289,6 +291,92 @@ mod tests {
             steps in proptest::array::uniform4(prop_oneof![0..3u8, 126..130u8, 254..=255u8, any::<u8>()])
         ) {
             prop_assert_eq!(are_bytes(&steps), !steps.contains(&0));
+        }
+    }
+
+    /// Whether bytes are so many edges of a surface, read as the description at the top says, bit by bit.
+    fn read(
+        mut bytes: &[u8],
+        boxes: usize,
+        mut edges: usize,
+        of_surface: usize,
+    ) -> Option<Vec<PackedEdge>> {
+        let mut all = Vec::new();
+        for _ in 0..boxes {
+            let (head, rest) = bytes.split_at_checked(22)?;
+            let (group, rest) = rest.split_at_checked(head[20].into())?;
+            bytes = rest;
+            let (count, here) = (usize::from(head[21]), edges.min(16));
+            edges -= here;
+            let bits = (4..7).find(|bits| 1 << bits >= count)?;
+            let (places, steps) = group.split_at_checked(here.div_ceil(2) * bits)?;
+            let mut steps = steps.iter().map(|&step| i32::from(step));
+            let mut vertices = Vec::new();
+            let mut before = -1;
+            for _ in 0..count {
+                // Of a list that was cut zeros are read.
+                let mut next = || steps.next().unwrap_or(0);
+                before += match next() {
+                    0 => next() + 256 * next(),
+                    step => step,
+                };
+                vertices.push(before);
+            }
+            let rise =
+                vertices.windows(2).all(|two| two[0] < two[1]) && vertices.first() >= Some(&0);
+            if here == 0
+                || count < 3
+                || !rise
+                || before >= of_surface as i32
+                || steps.next().is_some()
+            {
+                return None;
+            }
+            let bit = |at: usize| usize::from(places[at / 8] >> (at % 8) & 1);
+            let place = |number: usize| {
+                (0..bits)
+                    .map(|k| bit(number * bits + k) << k)
+                    .sum::<usize>()
+            };
+            let found: Option<Vec<u16>> = (0..8 * here.div_ceil(2))
+                .map(|number| Some(*vertices.get(place(number))? as u16))
+                .collect();
+            all.extend(found?.as_chunks::<4>().0.iter().take(here));
+        }
+        (edges == 0 && bytes.is_empty()).then_some(all)
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// Edges with a byte or two changed, of which some are edges still.
+        #[test]
+        fn what_fits_is_what_is_read_bit_by_bit(
+            edges in proptest::collection::vec(proptest::array::uniform4(prop_oneof![0u16..20, 0u16..40, 0u16..700]), 1..36),
+            changes in proptest::collection::vec((any::<proptest::sample::Index>(), prop_oneof![0u8..4, any::<u8>()]), 0..3),
+            cut in prop_oneof![Just(0usize), 0..4usize],
+        ) {
+            let boxes = edges.len().div_ceil(IN_BOX);
+            let mut bytes = tightened(&std::vec![[1.0; 10]; boxes], &edges);
+            bytes.truncate(bytes.len() - cut);
+            for (at, byte) in &changes {
+                let at = at.index(bytes.len());
+                bytes[at] = *byte;
+            }
+            for of_surface in [40, 600, 1 << 16] {
+                let expected = read(&bytes, boxes, edges.len(), of_surface);
+                let groups = TightGroups::new(&bytes, boxes, edges.len());
+                prop_assert_eq!(groups.fit(of_surface), expected.is_some());
+                if let Some(expected) = expected {
+                    let mut room = GroupRoom::EMPTY;
+                    let mut found = Vec::new();
+                    for (_, group) in groups {
+                        let group = group.unpacked(&mut room);
+                        found.extend(group.edges().iter().map(|&edge| group.edge(edge)));
+                    }
+                    prop_assert_eq!(found, expected);
+                }
+            }
         }
     }
 

@@ -126,6 +126,25 @@ fn bits_are_spread_to_every_second_place() {
     }
 }
 
+properties! {
+    /// The place in the square is read from every second digit in base two, and from those between them.
+    #[test]
+    fn edges_are_sorted_by_both_coordinates_of_their_direction_in_turn(
+        direction in proptest::array::uniform3(-1.0..1.0f64), along in -50.0..50.0f64,
+    ) {
+        prop_assume!(norm(&direction) > 1e-3);
+        let direction = scale(&direction, 1.0 / norm(&direction));
+        let number = order(&[dual(direction, along), dual(direction, along)], 50.0);
+        let digits = format!("{:020b}", number >> 11);
+        let read = |from: usize| {
+            let digits: std::string::String = digits.chars().skip(from).step_by(2).collect();
+            u32::from_str_radix(&digits, 2)
+        };
+        let [right, up] = unfolded(direction).map(|x| Ok(crate::math::floor(x * 1023.0) as u32));
+        prop_assert_eq!([read(1), read(0)], [right, up]);
+    }
+}
+
 const UP: Vector3 = [0.0, 0.0, 1.0];
 
 fn ordered(along: f64) -> u32 {
