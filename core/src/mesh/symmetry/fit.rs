@@ -145,3 +145,106 @@ pub(super) fn tangents(normal: &Vector3) -> (Vector3, Vector3) {
     let first = scale(&first, 1.0 / norm(&first));
     (first, cross(normal, &first))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::edges::fake::add_box;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// The plane that is turned and moved by a step; the shift is a part of the size.
+    fn stepped(plane: &Plane, [a, b, shift]: [f64; 3], size: f64) -> Plane {
+        let (first, second) = tangents(&plane.normal);
+        let moved = add(&plane.normal, &add(&scale(&first, a), &scale(&second, b)));
+        Plane {
+            normal: scale(&moved, 1.0 / norm(&moved)),
+            offset: plane.offset + shift * size,
+        }
+    }
+
+    /// A box of 60 x 20 x 40 mm in the middle of which the planes between its halves lie.
+    fn with_box(
+        look: impl Fn(&Mesh<'_>, &Samples) -> Result<(), TestCaseError>,
+    ) -> Result<(), TestCaseError> {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        add_box(
+            [-30.0, -10.0, -20.0],
+            [30.0, 10.0, 20.0],
+            &mut vertices,
+            &mut triangles,
+        );
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        look(&mesh, &Samples::new(&mesh).expect("it has an area"))
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Oracle: slopes of what a small step does to each mirrored point along the direction of its foot. Where the step ends the damped
+        /// normal equations hold.
+        #[test]
+        fn a_step_is_that_of_gauss_and_newton(
+            normal in prop::array::uniform3(-1.0..1.0f64), offset in -8.0..8.0f64, damping in prop_oneof![Just(0.0), 1e-3..10.0f64],
+            is_exact in any::<bool>(),
+        ) {
+            prop_assume!(norm(&normal) > 0.1);
+            let plane = Plane { normal: scale(&normal, 1.0 / norm(&normal)), offset };
+            with_box(|mesh, samples| {
+                let target = Target { samples, surface: is_exact.then_some(mesh) };
+                let mut found = [Foot::NONE; SAMPLES];
+                let squared = target.measure(&plane, &mut found);
+                prop_assert!((found.iter().map(|foot| foot.along * foot.along).sum::<f64>() / SAMPLES as f64 - squared).abs() < 1e-6);
+                let Some((next, length)) = target.step(&plane, &found, damping) else { return Ok(()) };
+                let (first, second) = tangents(&plane.normal);
+                let ahead = dot(&next.normal, &plane.normal);
+                let shift = (next.offset - plane.offset) / samples.size;
+                let step = [dot(&next.normal, &first) / ahead, dot(&next.normal, &second) / ahead, shift];
+                prop_assert!((norm(&step) - length).abs() < 1e-6 * (1.0 + length));
+                let image = |plane: &Plane, point: &Vector3| {
+                    let height = dot(&plane.normal, point) - plane.offset;
+                    add(point, &scale(&plane.normal, -2.0 * height))
+                };
+                let slopes = |point: &Vector3, foot: &Foot| -> Vector3 {
+                    core::array::from_fn(|k| {
+                        let along = |by: f64| {
+                            let mut step = [0.0; 3];
+                            step[k] = by;
+                            dot(&foot.direction, &image(&stepped(&plane, step, samples.size), point))
+                        };
+                        (along(1e-5) - along(-1e-5)) / 2e-5
+                    })
+                };
+                let (mut left, mut diagonal, mut size) = ([0.0; 3], [0.0; 3], 0.0);
+                for (point, foot) in samples.points.iter().zip(&found) {
+                    let row = slopes(point, foot);
+                    left = add(&left, &scale(&row, dot(&row, &step) + foot.along));
+                    diagonal = core::array::from_fn(|k| diagonal[k] + row[k] * row[k]);
+                    size += norm(&row) * foot.along.abs();
+                }
+                for k in 0..3 {
+                    // The floor under the diagonal is a part in 10^9 of all of it.
+                    let rest = left[k] + damping * diagonal[k] * step[k];
+                    let floor = 1e-9 * diagonal.iter().sum::<f64>() * step[k];
+                    prop_assert!((rest + floor).abs() < 1e-4 * size.max(1e-3), "{} of {}: {}", rest, size, k);
+                }
+                Ok(())
+            })?;
+        }
+
+        /// From a start so near that the surfaces differ by a thousandth of a millimetre, too.
+        #[test]
+        fn the_plane_of_an_exact_symmetry_is_found_to_rounding(
+            tilt in prop::array::uniform2(-1.0..1.0f64), shift in -1.0..1.0f64, size in prop_oneof![Just(1e-5), Just(1e-2), Just(0.1)],
+        ) {
+            with_box(|mesh, samples| {
+                let target = Target { samples, surface: Some(mesh) };
+                let start = Plane { normal: [1.0, 0.0, 0.0], offset: 0.0 };
+                let start = stepped(&start, [size * tilt[0], size * tilt[1], size * shift], samples.size);
+                let fitted = target.fit(start, 30, 0.0);
+                prop_assert!(fitted.squared <= (EXACT * samples.size) * (EXACT * samples.size), "{:?}", fitted);
+                Ok(())
+            })?;
+        }
+    }
+}

@@ -272,6 +272,7 @@ mod tests {
     use super::*;
     use crate::math::norm;
     use proptest::prelude::*;
+    use std::vec::Vec;
 
     fn point() -> impl Strategy<Value = Vector3> {
         prop::array::uniform3(-10.0..10.0f64)
@@ -318,6 +319,71 @@ mod tests {
             let cluster = |reach: f64| Cluster { bounds: one, reach };
             prop_assert!(!cluster(f64::from(naive)).may_gain(&other));
             prop_assert!(cluster(f64::from(naive) + 0.5).may_gain(&other));
+        }
+    }
+
+    properties! {
+        /// Of a point off the triangle the foot is the way itself, of one on it, whose way tells nothing, the normal.
+        #[test]
+        fn a_foot_is_the_way_from_the_nearest_point(
+            triangle in prop::array::uniform3(point()), p in point(), weights in prop::array::uniform3(0u8..3),
+        ) {
+            prop_assume!(norm(&normal(&triangle)) > 0.0);
+            let mut foot = Foot::NONE;
+            prop_assert!(approach(&p, &triangle, &mut foot));
+            let (nearest, _) = closest(&p, &triangle);
+            let way = subtract(&p, &nearest);
+            prop_assert!((foot.squared - dot(&way, &way)).abs() < 1e-9);
+            prop_assert!((norm(&foot.direction) - 1.0).abs() < 1e-9);
+            prop_assert!(norm(&subtract(&scale(&foot.direction, foot.along), &way)) < 1e-6);
+            // It is not replaced by another that is no nearer.
+            prop_assert!(!approach(&p, &triangle, &mut foot));
+
+            // Corners, points of sides and of the inside.
+            let whole = weights.map(f64::from).iter().sum::<f64>().max(1.0);
+            let on: Vector3 = core::array::from_fn(|k| {
+                (0..3).map(|corner| f64::from(weights[corner]) / whole * triangle[corner][k]).sum()
+            });
+            prop_assume!(weights != [0; 3]);
+            let mut foot = Foot::NONE;
+            approach(&on, &triangle, &mut foot);
+            prop_assert!(foot.squared < 1e-12 && (norm(&foot.direction) - 1.0).abs() < 1e-9, "{:?}", foot);
+            if foot.squared < TINY * TINY {
+                prop_assert!((dot(&foot.direction, &normal(&triangle)).abs() - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(16))]
+
+        /// Oracle: every triangle for every point. Of images in any plane, and of ones all over the place.
+        #[test]
+        fn feet_are_those_of_every_triangle(
+            vertices in prop::collection::vec(prop::array::uniform3(-50.0f32..50.0), 9..40),
+            height in -30.0..30.0f64, spread in prop_oneof![Just(1.0), 0.1..4.0f64],
+        ) {
+            let triangles: Vec<[u32; 3]> = (2..vertices.len() as u32).map(|k| [k - 2, k - 1, k]).collect();
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let samples = Samples::new(&mesh).expect("it has an area");
+            let images = samples.points.map(|[x, y, z]| [spread * x, spread * y, 2.0 * height - z]);
+            let mut found = [Foot::NONE; SAMPLES];
+            feet(&mesh, &samples, &images, &mut found);
+            for (image, foot) in images.iter().zip(&found) {
+                let mut expected = Foot::NONE;
+                for triangle in &triangles {
+                    approach(image, &corners(&mesh, triangle, &samples.origin), &mut expected);
+                }
+                prop_assert_eq!(foot.squared, expected.squared);
+            }
+            // On tangents: of the sample that is nearest.
+            feet_on_tangents(&samples, &images, &mut found);
+            for (image, foot) in images.iter().zip(&found) {
+                let away = |number: &usize| norm(&subtract(image, &samples.points[*number]));
+                let nearest = (0..SAMPLES).min_by(|a, b| away(a).total_cmp(&away(b))).expect("some");
+                let along = dot(&samples.normals[nearest], &subtract(image, &samples.points[nearest]));
+                prop_assert!((foot.along - along).abs() < 1e-9 && (foot.squared - along * along).abs() < 1e-9);
+            }
         }
     }
 

@@ -59,3 +59,22 @@ fn turned(point: &Vector3, axis: &Vector3, deg: f64) -> Vector3 {
     let across = scale(&cross(axis, point), sine);
     add(&along, &add(&across, &scale(point, cosine)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{apply, norm, radians, rotation_by, subtract};
+    use proptest::prelude::*;
+
+    properties! {
+        #[test]
+        fn a_turn_is_the_rotation_by_it(
+            axis in proptest::array::uniform3(-1.0..1.0f64), point in proptest::array::uniform3(-40.0..40.0f64), deg in -170.0..170.0f64,
+        ) {
+            prop_assume!(norm(&axis) > 0.1);
+            let axis = scale(&axis, 1.0 / norm(&axis));
+            let rotation = rotation_by(&scale(&axis, radians(deg)));
+            prop_assert!(norm(&subtract(&turned(&point, &axis, deg), &apply(&rotation, &point))) < 1e-9);
+        }
+    }
+}

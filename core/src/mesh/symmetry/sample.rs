@@ -168,6 +168,7 @@ mod tests {
     use super::*;
     use crate::math::dot;
     use crate::mesh::edges::fake::add_box;
+    use proptest::prelude::*;
     use std::vec::Vec;
 
     /// A box of 60 x 20 x 40 mm about a place far from the origin.
@@ -224,6 +225,67 @@ mod tests {
                 }
             }
         });
+    }
+
+    fn soup() -> impl Strategy<Value = Vec<[f32; 3]>> {
+        let vertex = proptest::array::uniform3(-50.0f32..50.0);
+        proptest::collection::vec(vertex, 3..60)
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        /// Each on its own triangle, with that one's normal, and beside it its neighbours.
+        #[test]
+        fn a_triangle_has_as_many_samples_as_its_area_asks_for(vertices in soup()) {
+            let triangles: Vec<[u32; 3]> = (0..vertices.len() as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let samples = Samples::new(&mesh).expect("it has an area");
+            let placed = |triangle: &[u32; 3]| corners(&mesh, triangle, &samples.origin);
+            let whole: f64 = triangles.iter().map(|triangle| area(&placed(triangle))).sum();
+            for triangle in &triangles {
+                let count = samples.triangles.iter().filter(|own| *own == triangle).count();
+                let asked = area(&placed(triangle)) / whole * SAMPLES as f64;
+                prop_assert!((count as f64 - asked).abs() < 1.0 + 1e-6, "{} {}", count, asked);
+            }
+            for ((point, own), triangle) in samples.points.iter().zip(&samples.normals).zip(&samples.triangles) {
+                let [a, b, c] = placed(triangle);
+                prop_assert_eq!(*own, normal(&[a, b, c]));
+                // Inside it: the triangles to its sides make up its area.
+                let parts = [[a, b, *point], [b, c, *point], [c, a, *point]].iter().map(area).sum::<f64>();
+                prop_assert!((parts - area(&[a, b, c])).abs() < 1e-6 * whole);
+            }
+            let mut length = SAMPLES;
+            while length > GROUP {
+                for block in samples.points.chunks_exact(length) {
+                    let axis = longest(block.iter());
+                    let (low, high) = block.split_at(length / 2);
+                    let most = low.iter().fold(f64::NEG_INFINITY, |most, point| most.max(point[axis]));
+                    prop_assert!(high.iter().all(|point| point[axis] >= most));
+                }
+                length /= 2;
+            }
+        }
+
+        /// Exactly, about whichever point they are taken.
+        #[test]
+        fn moments_are_those_of_the_parts(corners in proptest::array::uniform3(proptest::array::uniform3(-9.0..9.0f64))) {
+            let [a, b, c] = corners;
+            let middle = |a: &Vector3, b: &Vector3| scale(&add(a, b), 0.5);
+            let (ab, bc, ca) = (middle(&a, &b), middle(&b, &c), middle(&c, &a));
+            let (mut whole, mut parts) = (Moments::default(), Moments::default());
+            whole.add(&corners);
+            for part in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
+                parts.add(&part);
+            }
+            prop_assert!((whole.area - parts.area).abs() < 1e-9);
+            for k in 0..3 {
+                prop_assert!((whole.first[k] - parts.first[k]).abs() < 1e-9);
+                for other in 0..3 {
+                    prop_assert!((whole.second[k][other] - parts.second[k][other]).abs() < 1e-6);
+                }
+            }
+        }
     }
 
     /// Boxes around neighbours keep most of a surface from most of the points.

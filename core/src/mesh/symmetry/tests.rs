@@ -239,6 +239,53 @@ properties! {
         prop_assert!(exact.is_some_and(|p| p.deviation_mm < 0.1), "{:?}", planes);
     }
 
+    /// Millions of millimetres or thousandths: to the last bit, because all are powers of two.
+    #[test]
+    fn units_do_not_matter(pose in placed_within(40.0), bump in 0.0..6.0f64, power in prop_oneof![-12..-3i32, 3..6i32]) {
+        let times = libm::exp2(f64::from(power));
+        let scaled = |mut body: Body| {
+            body.vertices.iter_mut().flatten().for_each(|x| *x *= times as f32);
+            body
+        };
+        for body in [
+            tray().joined(cuboid([2.0, 2.0, 14.0], [16.0, 2.0 + bump, 28.0])),
+            star(|x, y, z| (26.0 + bump * x * y * z) / (1.0 - 0.4 * y * y + 0.6 * x * x)),
+            cuboid([-20.0; 3], [20.0; 3]),
+            lopsided(),
+        ] {
+            let body = body.moved(&pose);
+            let round = |body: &Body| revolution(&Mesh::new(&body.vertices, &body.triangles).expect("a valid body"));
+            let (planes, is_round) = (body.planes(), round(&body).is_some());
+            let body = scaled(body);
+            let expected: Vec<_, PLANES> = planes
+                .iter()
+                .map(|plane| SymmetryPlane {
+                    point: scale(&plane.point, times),
+                    deviation_mm: plane.deviation_mm * times,
+                    ..*plane
+                })
+                .collect();
+            prop_assert_eq!(body.planes(), expected);
+            prop_assert_eq!(round(&body).is_some(), is_round);
+        }
+    }
+
+    /// By rising deviation, each once, and with its largest component positive.
+    #[test]
+    fn planes_are_told_in_one_way(pose in placed_within(400.0), sides in prop::array::uniform3(8.0..40.0f64)) {
+        for body in [cuboid(sides.map(|x| -x), sides), star(|_, y, _| 30.0 - 12.0 * y * y), tray()] {
+            let planes = body.moved(&pose).planes();
+            prop_assert!(!planes.is_empty() && planes.is_sorted_by(|a, b| a.deviation_mm <= b.deviation_mm));
+            for (k, plane) in planes.iter().enumerate() {
+                let most = plane.normal.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                prop_assert!(plane.normal.contains(&most), "{:?}", plane);
+                for other in &planes[..k] {
+                    prop_assert!(dot(&plane.normal, &other.normal).abs() < cosine(SAME_DEG));
+                }
+            }
+        }
+    }
+
     #[test]
     fn any_mesh_is_looked_at_without_complaint(
         vertices in prop::collection::vec(prop::array::uniform3(-50.0f32..50.0), 3..20),
