@@ -229,6 +229,97 @@ mod tests {
         }
     }
 
+    properties! {
+        /// Oracle: angles of the turn and of the axis across, by which the file's axes in some order were turned.
+        #[test]
+        fn axes_near_the_files_own_are_those(
+            turn in proptest::array::uniform3(-8.0..8.0f64), order in 0..3usize, signs in proptest::array::uniform2(prop_oneof![Just(-1.0), Just(1.0)]),
+            swapped in any::<bool>(),
+        ) {
+            let axis = |k: usize| crate::math::IDENTITY[(k + order) % 3];
+            let (first, second) = if swapped { (axis(1), axis(0)) } else { (axis(0), axis(1)) };
+            let (x, y) = (scale(&first, signs[0]), scale(&second, signs[1]));
+            let z = cross(&x, &y);
+            let own: Matrix3 = core::array::from_fn(|row| [x[row], y[row], z[row]]);
+            let turned = crate::math::multiply(&crate::math::rotation_by(&turn.map(radians)), &own);
+            let found = Pose { rotation: turned, translation: [0.0; 3] };
+            let turn_deg = norm(&turn);
+            let across = turned.map(|row| row[2]);
+            let across_deg = crate::math::degrees(crate::math::atan2(norm(&cross(&across, &z)), dot(&across, &z)));
+            let is_near = turn_deg < OWN_AXIS_DEG && across_deg < OWN_ACROSS_DEG;
+            prop_assert_eq!(own_axes(&found).map(|pose| pose.rotation), is_near.then_some(own));
+        }
+
+        #[test]
+        fn what_is_perpendicular_to_an_axis_is_of_length_one(axis in proptest::array::uniform3(-1.0..1.0f64)) {
+            prop_assume!(norm(&axis) > 0.1);
+            let axis = scale(&axis, 1.0 / norm(&axis));
+            let found = perpendicular(&axis);
+            prop_assert!((norm(&found) - 1.0).abs() < 1e-9 && dot(&found, &axis).abs() < 1e-9);
+            // An axis and its opposite are one, told by its largest component.
+            let most = axis.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            prop_assert!(upright(axis).contains(&most));
+            prop_assert_eq!(upright(scale(&axis, -1.0)), upright(axis));
+        }
+
+        /// In whichever order planes are told, and however they are directed.
+        #[test]
+        fn across_is_the_wider_way_of_planes_that_are_alike(
+            sides in proptest::array::uniform3(20.0..60.0f32), deviations in proptest::array::uniform3(prop_oneof![Just(0.0), 0.0..3.0f64]),
+        ) {
+            let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+            add_box([0.0; 3], sides, &mut vertices, &mut triangles);
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let mut planes: Vec<SymmetryPlane> = (0..3)
+                .map(|k| SymmetryPlane { point: [0.0; 3], normal: scale(&crate::math::IDENTITY[k], -1.0), deviation_mm: deviations[k] })
+                .collect();
+            planes.sort_by(|a, b| a.deviation_mm.total_cmp(&b.deviation_mm));
+            let limit = 3.0 * planes[0].deviation_mm.max(1e-3 * mesh.bounds().radius);
+            let alike = (0..3).filter(|&k| deviations[k] <= limit);
+            let widest = alike.max_by(|&a, &b| sides[a].total_cmp(&sides[b])).expect("the best");
+            prop_assert_eq!(mediolateral_axis(&mesh, &planes), Some(crate::math::IDENTITY[widest]));
+            prop_assert_eq!(reach(&mesh, &crate::math::IDENTITY[widest]), (0.0, f64::from(sides[widest])));
+            prop_assert_eq!(mediolateral_axis(&mesh, &[]), None);
+        }
+    }
+
+    /// Along x and z.
+    #[test]
+    fn a_component_has_the_proportions_of_one_condyle_below_a_width_of_its_depth() {
+        let is = |depth: f32, width: f32, component| {
+            let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+            add_box(
+                [5.0, 0.0, 9.0],
+                [5.0 + depth, 4.0, 9.0 + width],
+                &mut vertices,
+                &mut triangles,
+            );
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            is_of_one_condyle(&mesh, &[1.0, 0.0, 0.0], &[0.0, 0.0, 1.0], component)
+        };
+        for (depth, width, narrow) in [(60.0, 44.9, true), (60.0, 45.1, false), (20.0, 60.0, false)]
+        {
+            assert_eq!(
+                is(depth, width, KneeComponent::Femur),
+                narrow,
+                "{depth} x {width}"
+            );
+        }
+        for (depth, width, slender) in [
+            (30.0, 49.4, false),
+            (30.0, 49.6, true),
+            (30.0, 61.9, true),
+            (30.0, 62.1, false),
+            (60.0, 40.0, false),
+        ] {
+            assert_eq!(
+                is(depth, width, KneeComponent::Tibia),
+                slender,
+                "{depth} x {width}"
+            );
+        }
+    }
+
     /// Coronal tilt would be 8 degrees off, and choose sides of the mirror by that.
     #[test]
     fn a_file_that_leans_to_one_side_has_the_axes_of_its_shape() {

@@ -307,6 +307,81 @@ mod tests {
         }
     }
 
+    properties! {
+        /// The body of any triangles and of their images through a point, and how a body lies among the axes.
+        #[test]
+        fn the_way_outwards_is_none_of_what_is_its_own_image_and_turns_with_the_axes(
+            half in proptest::collection::vec(proptest::array::uniform3(-40.0..40.0f32), 9),
+            turn in 0..3usize, signs in proptest::array::uniform3(prop_oneof![Just(-1.0f32), Just(1.0f32)]),
+        ) {
+            let triangles: Vec<[u32; 3]> = (0..6).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let outwards = |corners: &[[f32; 3]]| {
+                let mesh = Mesh::new(corners, &triangles[..corners.len() / 3]).expect("valid");
+                Surface::of(&mesh).and_then(|surface| surface.outwards(&mesh)).expect("a surface")
+            };
+            let whole: Corners = half.iter().copied().chain(half.iter().map(|corner| corner.map(|x| -x))).collect();
+            prop_assert!(norm(&outwards(&whole)) < 1e-9);
+            let placed = |corner: &[f32; 3]| core::array::from_fn(|k| signs[k] * corner[(k + turn) % 3]);
+            let own = outwards(&half);
+            let found = outwards(&half.iter().map(placed).collect::<Corners>());
+            let expected: Vector3 = core::array::from_fn(|k| f64::from(signs[k]) * own[(k + turn) % 3]);
+            prop_assert!(norm(&subtract(&found, &expected)) < 1e-6, "{:?} {:?}", found, expected);
+        }
+
+        /// A cell is a quarter of a side wide at most: its corners are within 21 degrees of each other.
+        #[test]
+        fn normals_of_one_cell_are_alike(
+            normals in proptest::collection::vec(proptest::array::uniform3(prop_oneof![Just(-1.0), Just(0.0), Just(1.0), -1.0..1.0f64]), 60),
+        ) {
+            let told: Vec<_> = normals
+                .iter()
+                .filter_map(|normal| {
+                    let (cell, sign) = cell_of(normal)?;
+                    Some((cell, scale(&unit(normal)?, sign)))
+                })
+                .collect();
+            for (k, (cell, normal)) in told.iter().enumerate() {
+                prop_assert!(*cell < CELLS);
+                prop_assert_eq!(cell_of(&scale(normal, -3.0)), Some((*cell, -1.0)));
+                let beside = told[..k].iter().filter(|(other, _)| other == cell);
+                for (_, other) in beside {
+                    prop_assert!(dot(normal, other) > 0.933, "{:?} {:?}", normal, other);
+                }
+            }
+        }
+
+        #[test]
+        fn what_faces_a_direction_is_turned_towards_it(
+            sum in proptest::array::uniform3(-9.0..9.0f64), along in proptest::array::uniform3(-1.0..1.0f64), part in 0.0..1.0f64,
+        ) {
+            let Some(along) = unit(&along) else { return Ok(()) };
+            // Much of it along the direction, or any.
+            let sum = add(&sum, &scale(&along, 90.0 * part * part));
+            let angle = crate::math::atan2(norm(&crate::math::cross(&sum, &along)), dot(&sum, &along).abs());
+            let found = towards(&sum, &along);
+            let expected = if dot(&sum, &along) < 0.0 { scale(&sum, -1.0) } else { sum };
+            prop_assert_eq!(found, if angle.to_degrees() < 15.0 { expected } else { [0.0; 3] });
+            prop_assert_eq!(towards(&scale(&sum, -1.0), &along), found);
+        }
+
+        /// A box shows most of itself along its shortest side.
+        #[test]
+        fn rows_of_the_frame_are_what_is_faced_most_to_least(sides in proptest::array::uniform3(5.0..60.0f32)) {
+            let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+            add_box([0.0; 3], sides, &mut corners, &mut triangles);
+            let surface = Surface::of(&Mesh::new(&corners, &triangles).expect("valid")).expect("a surface");
+            let mut order = [0, 1, 2];
+            order.sort_by(|&a, &b| sides[a].total_cmp(&sides[b]));
+            prop_assume!(order.windows(2).all(|two| sides[two[1]] - sides[two[0]] > 0.1));
+            for (row, axis) in surface.own_from_model.iter().zip(order) {
+                prop_assert!((row[axis].abs() - 1.0).abs() < 1e-6);
+            }
+            let [a, b, c] = sides.map(f64::from);
+            prop_assert!((surface.area / 4.0 - (a * b + b * c + c * a)).abs() < 1e-6 * surface.area);
+            prop_assert!((0..3).all(|k| (surface.middle[k] - f64::from(sides[k]) / 2.0).abs() < 1e-6));
+        }
+    }
+
     /// Its middle lies far from that of its outermost points too.
     #[test]
     fn a_tray_on_a_stem_with_more_surface_than_its_plate_is_no_bow() {

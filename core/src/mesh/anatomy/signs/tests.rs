@@ -174,6 +174,58 @@ properties! {
         }
     }
 
+    /// What hangs from a plate is neither a lobe nor in the notch, wherever it reaches.
+    #[test]
+    fn the_front_of_a_tray_is_told_by_its_plate_alone(
+        pose in placed_within(80.0), side in -30.0..30.0f32, from in -34.0..20.0f32, sign in prop_oneof![Just(-1.0), Just(1.0)],
+    ) {
+        let [front, up, right] = axes(&pose);
+        let keel = ([from, -40.0, side - 5.0], [from + 20.0, -3.0, side + 5.0]);
+        let mut part = tray(5.0);
+        add_box(keel.0, keel.1, &mut part.vertices, &mut part.triangles);
+        let part = part.at(&pose);
+        let (found, known) = away_from_the_notch(&part.mesh(), &scale(&front, sign), &right, &up);
+        prop_assert!(known && off(&found, &front) < 1e-9);
+    }
+
+    /// Both parts of a polygon make it up, and lie on their sides.
+    #[test]
+    fn what_is_cut_off_is_what_is_left_out(
+        corners in proptest::array::uniform3(proptest::array::uniform3(-9.0..9.0f64)),
+        halves in proptest::array::uniform3((proptest::array::uniform3(-1.0..1.0f64), -6.0..6.0f64)),
+    ) {
+        let area = |polygon: &Polygon| {
+            let fan = polygon.windows(2).skip(1);
+            let sum = fan.fold([0.0; 3], |sum, two| {
+                add(&sum, &cross(&subtract(&two[0], &polygon[0]), &subtract(&two[1], &polygon[0])))
+            });
+            norm(&sum)
+        };
+        let mut whole: Polygon = corners.into_iter().collect();
+        for (axis, least) in halves {
+            let own = clipped(&whole, &(axis, least));
+            let other = clipped(&whole, &(scale(&axis, -1.0), -least));
+            prop_assert!((area(&own) + area(&other) - area(&whole)).abs() < 1e-9);
+            prop_assert!(own.iter().all(|point| dot(point, &axis) >= least - 1e-9));
+            prop_assert!(other.iter().all(|point| dot(point, &axis) <= least + 1e-9));
+            whole = own;
+        }
+        // How far it reaches along an axis, by all pieces of the triangle that lie within.
+        let vertices = corners.map(|corner| corner.map(|x| x as f32));
+        let mesh = Mesh::new(&vertices, &[[0, 1, 2]]).expect("valid");
+        let along = [0.6, 0.0, 0.8];
+        let (low, high) = reach_within(&mesh, &halves, &along);
+        let [a, b, c] = vertices.map(|corner| corner.map(f64::from));
+        for (s, t) in (0..=30).flat_map(|s| (0..=30 - s).map(move |t| (f64::from(s) / 30.0, f64::from(t) / 30.0))) {
+            let point: Vector3 = core::array::from_fn(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]));
+            let is_within = halves.iter().all(|(axis, least)| dot(&point, axis) >= *least);
+            prop_assert!(!is_within || (low - 1e-9..=high + 1e-9).contains(&dot(&point, &along)));
+        }
+        let ends = whole.iter().map(|point| dot(point, &along));
+        let (least, most) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        prop_assert!(whole.is_empty() || ((low - least).abs() < 1e-4 && (high - most).abs() < 1e-4));
+    }
+
     /// Whichever arm it stands nearer to. One that leans over an arm hides it.
     #[test]
     fn a_stem_is_no_arm(pose in placed_within(80.0), at in -7.0..7.0f32, height in 52.0..200.0f32) {
