@@ -76,6 +76,8 @@ mod tests {
     use crate::mesh::edges::fake;
     use crate::pose::{EulerPose, Pose};
     use crate::render::{Projected, render, scratch_needed};
+    use proptest::collection::vec as vec_of;
+    use proptest::prelude::*;
     use std::vec;
 
     fn drawn(model: &Model<'_>) -> Vec<u32> {
@@ -91,6 +93,44 @@ mod tests {
         let mut scratch = vec![Projected::default(); scratch_needed(model)];
         render(model, &camera, &pose, &mut scratch, &mut mask).expect("in front");
         words
+    }
+
+    properties! {
+        /// Oracle: every vertex beside every other. Cells lie around the origin, so that some have negative numbers.
+        #[test]
+        fn vertices_of_a_cell_are_drawn_to_their_mean(
+            vertices in vec_of(proptest::array::uniform3(-9.0..9.0f32), 3..30),
+            corners in vec_of(proptest::array::uniform3(0u32..30), 1..40),
+            cell_mm in 0.5..20.0f64,
+        ) {
+            let count = vertices.len() as u32;
+            let triangles: Vec<[u32; 3]> = corners.iter().map(|corners| corners.map(|corner| corner % count)).collect();
+            let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+            let cell = |corner: &[f32; 3]| corner.map(|x| (f64::from(x) / cell_mm).floor() as i64);
+            let mean = |vertex: u32| {
+                let own = cell(&vertices[vertex as usize]);
+                let beside: Vec<_> = vertices.iter().filter(|other| cell(other) == own).collect();
+                let sum = |k: usize| beside.iter().map(|other| f64::from(other[k])).sum::<f64>();
+                core::array::from_fn(|k| (sum(k) / beside.len() as f64) as f32)
+            };
+            let drawn = triangles.iter().map(|triangle| triangle.map(mean));
+            let expected: Vec<[[f32; 3]; 3]> = drawn.filter(|[a, b, c]| a != b && b != c && c != a).collect();
+            let found = clustered(&model, cell_mm);
+            prop_assert_eq!(found.is_some(), !expected.is_empty() && expected.len() < triangles.len());
+            let is_worth = found.is_some() && 2 * expected.len() <= triangles.len();
+            prop_assert_eq!(coarser(&model, cell_mm).is_some(), is_worth);
+            if let Some(found) = found {
+                let model = found.as_model();
+                let places = |triangle: &[u32; 3]| triangle.map(|vertex| model.vertices()[vertex as usize]);
+                // Triangles are turned alike, which is not looked at here.
+                let sorted = |mut places: [[f32; 3]; 3]| {
+                    places.sort_by(|a, b| a.partial_cmp(b).expect("no NaN"));
+                    places
+                };
+                let found: Vec<_> = model.triangles().iter().map(places).map(sorted).collect();
+                prop_assert_eq!(found, expected.into_iter().map(sorted).collect::<Vec<_>>());
+            }
+        }
     }
 
     #[test]
