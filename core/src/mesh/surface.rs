@@ -253,6 +253,7 @@ mod tests {
             points in proptest::collection::vec(proptest::array::uniform3(-1.0..1.0f32), 1..60),
             size in (-3.0..1.8f32).prop_map(libm::exp10f),
             flat in proptest::bool::weighted(0.2),
+            are_ends in any::<bool>(),
             origin in proptest::array::uniform3(prop_oneof![Just(0.0f32), -50.0..50.0f32, -300.0..300.0f32, -9_000.0..9_000.0f32]),
         ) {
             let place = |p: [f32; 3]| core::array::from_fn(|k| {
@@ -265,7 +266,10 @@ mod tests {
                 p.map(|x| x / length)
             };
             let inner = points.iter().copied();
-            let vertices: std::vec::Vec<[f32; 3]> = inner.clone().chain(inner.map(on_sphere)).map(place).collect();
+            // About the middle of the sphere where its ends are among them: some are farther by no more than their rounding.
+            let ends = [-1.0, 1.0].map(|end| crate::math::IDENTITY.map(|axis| axis.map(|x| end * x as f32)));
+            let ends = ends.into_iter().flatten().filter(|_| are_ends);
+            let vertices: std::vec::Vec<[f32; 3]> = ends.chain(inner.clone()).chain(inner.map(on_sphere)).map(place).collect();
             let along = |k: usize| vertices.iter().map(move |v| f64::from(v[k]));
             let centre: Vector3 = core::array::from_fn(|k| {
                 (along(k).fold(f64::INFINITY, f64::min) + along(k).fold(f64::NEG_INFINITY, f64::max)) / 2.0

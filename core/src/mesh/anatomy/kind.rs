@@ -267,7 +267,7 @@ mod tests {
         fn plates_are_trays_and_bows_are_femoral(
             angles in proptest::array::uniform3(-180.0..180.0f64),
             place in proptest::array::uniform3(-100.0..100.0f64),
-            size in 0.01..20.0f64,
+            size in (-3.0..1.7f64).prop_map(libm::exp10),
             round in 150.0..270.0f64,
             thick in 3.0..6.5f64,
             wide in 35.0..62.0f32,
@@ -308,7 +308,7 @@ mod tests {
     }
 
     properties! {
-        /// The body of any triangles and of their images through a point, and how a body lies among the axes.
+        /// The body of any triangles and of their images through a point, and one that lies elsewhere, with other axes.
         #[test]
         fn the_way_outwards_is_none_of_what_is_its_own_image_and_turns_with_the_axes(
             half in proptest::collection::vec(proptest::array::uniform3(-40.0..40.0f32), 9),
@@ -321,11 +321,11 @@ mod tests {
             };
             let whole: Corners = half.iter().copied().chain(half.iter().map(|corner| corner.map(|x| -x))).collect();
             prop_assert!(norm(&outwards(&whole)) < 1e-9);
-            let placed = |corner: &[f32; 3]| core::array::from_fn(|k| signs[k] * corner[(k + turn) % 3]);
+            let placed = |corner: &[f32; 3]| core::array::from_fn(|k| signs[k] * corner[(k + turn) % 3] + 20.0 * k as f32);
             let own = outwards(&half);
             let found = outwards(&half.iter().map(placed).collect::<Corners>());
             let expected: Vector3 = core::array::from_fn(|k| f64::from(signs[k]) * own[(k + turn) % 3]);
-            prop_assert!(norm(&subtract(&found, &expected)) < 1e-6, "{:?} {:?}", found, expected);
+            prop_assert!(norm(&subtract(&found, &expected)) < 1e-3, "{:?} {:?}", found, expected);
         }
 
         /// A cell is a quarter of a side wide at most: its corners are within 21 degrees of each other.

@@ -209,13 +209,16 @@ fn away_from_the_notch(
 type HalfSpace = (Vector3, f64);
 
 /// How far what of a surface lies within halves of space, three at most, reaches along an axis: of the surface, not of its vertices, which a
-/// flat part has none of.
+/// flat part has none of. A triangle that covers nothing is none of it, and may lie across a notch.
 fn reach_within(mesh: &Mesh<'_>, halves: &[HalfSpace], axis: &Vector3) -> (f64, f64) {
     let corners = mesh.vertices();
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for triangle in mesh.triangles() {
-        let corners = triangle.map(|vertex| corners[vertex as usize].map(f64::from));
-        let whole: Polygon = corners.into_iter().collect();
+        let [a, b, c] = triangle.map(|vertex| corners[vertex as usize].map(f64::from));
+        if cross(&subtract(&b, &a), &subtract(&c, &a)) == [0.0; 3] {
+            continue;
+        }
+        let whole: Polygon = [a, b, c].into_iter().collect();
         let within = halves.iter().fold(whole, |part, half| clipped(&part, half));
         let (from, to) = reach(within.into_iter(), axis);
         (low, high) = (low.min(from), high.max(to));

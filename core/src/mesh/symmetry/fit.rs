@@ -232,6 +232,27 @@ mod tests {
             })?;
         }
 
+        /// A plane is never left for one that is worse, and what is told of it is so.
+        #[test]
+        fn no_pass_makes_a_plane_worse(
+            normal in prop::array::uniform3(-1.0..1.0f64), offset in -25.0..25.0f64, is_exact in any::<bool>(), wanted in prop_oneof![Just(0.0), 0.1..9.0f64],
+        ) {
+            prop_assume!(norm(&normal) > 0.1);
+            let start = Plane { normal: scale(&normal, 1.0 / norm(&normal)), offset };
+            with_box(|mesh, samples| {
+                let target = Target { samples, surface: is_exact.then_some(mesh) };
+                let measured = |plane: &Plane| target.measure(plane, &mut [Foot::NONE; SAMPLES]);
+                let mut before = measured(&start);
+                for passes in [0, 1, 2, 3, 5, 9] {
+                    let fitted = target.fit(start, passes, wanted);
+                    prop_assert_eq!(fitted.squared, measured(&fitted.plane));
+                    prop_assert!(fitted.squared <= before);
+                    before = fitted.squared;
+                }
+                Ok(())
+            })?;
+        }
+
         /// From a start so near that the surfaces differ by a thousandth of a millimetre, too.
         #[test]
         fn the_plane_of_an_exact_symmetry_is_found_to_rounding(

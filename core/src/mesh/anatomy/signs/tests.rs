@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::apply;
-use crate::mesh::anatomy::field_axes;
+use crate::mesh::anatomy::{component_by_shape, field_axes};
 use crate::mesh::edges::fake::{add_box, add_prism, ellipse, placed_within};
 use crate::mesh::symmetry::symmetry_planes;
 use crate::pose::EulerPose;
@@ -174,7 +174,7 @@ properties! {
         }
     }
 
-    /// What hangs from a plate is neither a lobe nor in the notch, wherever it reaches.
+    /// What hangs from a plate is neither a lobe nor in the notch, wherever it reaches, and what stands on it by a little leaves it the plate.
     #[test]
     fn the_front_of_a_tray_is_told_by_its_plate_alone(
         pose in placed_within(80.0), side in -30.0..30.0f32, from in -34.0..20.0f32, sign in prop_oneof![Just(-1.0), Just(1.0)],
@@ -183,6 +183,8 @@ properties! {
         let keel = ([from, -40.0, side - 5.0], [from + 20.0, -3.0, side + 5.0]);
         let mut part = tray(5.0);
         add_box(keel.0, keel.1, &mut part.vertices, &mut part.triangles);
+        let rib = ([-5.0, 4.0, side - 1.0], [5.0, 5.0, side + 1.0]);
+        add_box(rib.0, rib.1, &mut part.vertices, &mut part.triangles);
         let part = part.at(&pose);
         let (found, known) = away_from_the_notch(&part.mesh(), &scale(&front, sign), &right, &up);
         prop_assert!(known && off(&found, &front) < 1e-9);
@@ -276,6 +278,31 @@ properties! {
         prop_assert!(found.is_some_and(|found| off(&found, &up) < 1e-4), "{:?}", found);
         let closed = Part::of(&[([-20.0, 0.0, -30.0], [20.0, 40.0, 30.0])]).at(&pose);
         prop_assert_eq!(opening(&closed.mesh(), &right), None);
+    }
+}
+
+properties! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// A line is none of the surface, though it lie across a notch: remarks say so.
+    #[test]
+    fn triangles_without_area_change_nothing(
+        pose in placed_within(80.0), lines in proptest::collection::vec(0..23u32, 1..4),
+    ) {
+        for (part, component) in [(tray(5.0), KneeComponent::Tibia), (bow(50.0), KneeComponent::Femur)] {
+            let part = part.at(&pose);
+            let alone = part.mesh();
+            let mut with_lines = part.triangles.clone();
+            with_lines.extend(lines.iter().map(|&corner| [corner, corner, corner + 1]));
+            let mesh = Mesh::new(&part.vertices, &with_lines).expect("valid");
+            let planes = symmetry_planes(&alone);
+            prop_assert_eq!(&symmetry_planes(&mesh), &planes);
+            let axes = anatomical_axes(&alone, &planes, component);
+            prop_assert!(axes.is_some());
+            prop_assert_eq!(anatomical_axes(&mesh, &planes, component), axes);
+            prop_assert_eq!(field_axes(&mesh, &planes, component), field_axes(&alone, &planes, component));
+            prop_assert_eq!(component_by_shape(&mesh), component_by_shape(&alone));
+        }
     }
 }
 
