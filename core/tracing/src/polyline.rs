@@ -186,6 +186,38 @@ mod tests {
         );
     }
 
+    /// Oracle: the way along the line, point by point.
+    #[test]
+    fn even_points_know_how_far_along_the_line_they_are() {
+        let uneven = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0)].map(|(c, r)| Point::new(c, r));
+        for (points, count) in [
+            (&square()[..], 4),
+            (&square()[..], 8),
+            (&uneven[..], 12),
+            (&uneven[..], 7),
+        ] {
+            let whole = length(points, true);
+            let mut made = std::vec::Vec::new();
+            let emit = |vertex: Vertex| {
+                made.push(vertex);
+                Ok(())
+            };
+            space_evenly(points, count, emit).expect("pushes");
+            assert_eq!(made.len(), count);
+            for (k, vertex) in made.iter().enumerate() {
+                let number = vertex.from as usize;
+                let ends = side(points, number);
+                let sides = (0..number).map(|number| side(points, number));
+                let before: f64 = sides.map(|(a, b)| distance(a, b)).sum();
+                let along = before + (vertex.from - number as f64) * distance(ends.0, ends.1);
+                assert!((along - whole * k as f64 / count as f64).abs() < 1e-6);
+                assert!(distance(vertex.at, between(ends, vertex.from - number as f64)) < 1e-6);
+                // A corner is the beginning of its side, not the end of the one before.
+                assert!(vertex.from - (number as f64) < 1.0 - 1e-6);
+            }
+        }
+    }
+
     #[test]
     fn what_is_no_line_is_said() {
         let mut points = square();

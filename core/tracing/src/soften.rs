@@ -194,6 +194,32 @@ mod tests {
     }
 
     #[test]
+    fn weights_are_those_of_a_gaussian_and_of_a_mean() {
+        let weights = weights();
+        let sum = |of: fn(f64) -> f64| {
+            let terms = (1..=REACH).map(|k| 2.0 * weights[k] * of(SPACING * k as f64));
+            weights[0] * of(0.0) + terms.sum::<f64>()
+        };
+        assert!((sum(|_| 1.0) - 1.0).abs() < 1e-12);
+        // Of the width 1, of which three widths at least are kept.
+        assert!((sum(|t| t * t) - 1.0).abs() < 0.03);
+        for k in 1..REACH {
+            let ratio = weights[k] * weights[k] / (weights[k - 1] * weights[k + 1]);
+            assert!((ratio - exp(SPACING * SPACING)).abs() < 1e-9);
+        }
+        // What is the same everywhere is its own mean, in rings shorter than the reach too, and a step is drawn out evenly.
+        for count in [1, 2, 3, 50] {
+            let mean = average(count, 0, &weights, |_| Point::new(7.0, -3.0));
+            assert!((mean.column - 7.0).abs() < 1e-9 && (mean.row + 3.0).abs() < 1e-9);
+        }
+        let step = |k: usize| Point::new(if k < 40 { 0.0 } else { 1.0 }, 0.0);
+        for k in 0..20 {
+            let [before, after] = [39 - k, 40 + k].map(|at| average(80, at, &weights, step).column);
+            assert!((before + after - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
     fn shaking_goes_and_the_circle_stays() {
         let points = shaken(40.0, 1.0);
         let given: Vec<Vertex> = points.iter().map(|&p| Vertex::new(p)).collect();

@@ -162,6 +162,33 @@ mod tests {
         assert_eq!(angle_of(0, 0), 0);
     }
 
+    /// Oracle: magnitudes around a pixel by the angle, linear between those at each eighth of a turn. Eighths of a turn, with those around,
+    /// change nothing either.
+    #[test]
+    fn a_ridge_is_no_lower_than_what_lies_across_it() {
+        let mut random = crate::synthetic::Random(7);
+        for _ in 0..400 {
+            let around: [u16; 8] = core::array::from_fn(|_| (9.0 * random.uniform()) as u16);
+            let here = (9.0 * random.uniform()) as u16;
+            let outwards = (256.0 * random.uniform()) as u8;
+            let at = |angle: usize| {
+                let (low, part) = (angle / 32, (angle % 32) as f64 / 32.0);
+                f64::from(around[low % 8]) * (1.0 - part) + f64::from(around[(low + 1) % 8]) * part
+            };
+            // Of the two sides that in the lower half of the screen, or to the left, comes first.
+            let first = usize::from(outwards) % 128;
+            let expected = f64::from(here) >= at(first) && f64::from(here) > at(first + 128);
+            let [e, se, s, sw, w, nw, n, ne] = around;
+            let rows = [[nw, n, ne], [w, here, e], [sw, s, se]];
+            let rows = rows.each_ref().map(|row| row.as_slice());
+            assert_eq!(
+                is_ridge(rows, 1, outwards),
+                expected,
+                "{around:?} {here} {outwards}"
+            );
+        }
+    }
+
     /// Oracle: every second pixel up to four away, by the squares of a binomial, at the border the last pixel again.
     #[test]
     fn a_coarse_row_weighs_five_by_five_pixels_of_the_fine_one() {

@@ -104,6 +104,28 @@ mod tests {
         assert_eq!(grid.between(&values, 8, 47, 39), 19_000);
     }
 
+    /// Oracle: every cell for every other.
+    #[test]
+    fn a_cell_gathers_those_of_its_square() {
+        let (columns, rows) = (7, 5);
+        let grid = Grid { columns, rows };
+        let values: std::vec::Vec<u32> = (0..35).map(|k| k * k * 31 % 97).collect();
+        for reach in 0..4 {
+            for extreme in [u32::max, u32::min] {
+                let mut found = [0; 35];
+                grid.gather(&values, &mut found, reach, extreme);
+                for (at, &found) in found.iter().enumerate() {
+                    let is_near = |&other: &usize| {
+                        (at % columns).abs_diff(other % columns) <= reach
+                            && (at / columns).abs_diff(other / columns) <= reach
+                    };
+                    let near = (0..35).filter(is_near).map(|other| values[other]);
+                    assert_eq!(near.reduce(extreme), Some(found), "{at} {reach}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_dark_thing_before_a_background_that_changes_has_one_depth() {
         let (width, height) = (400, 320);

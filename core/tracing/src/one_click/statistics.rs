@@ -217,6 +217,32 @@ mod tests {
         assert_eq!(statistics.sharpness(800), 0.0);
     }
 
+    /// Thresholds are of the seed's own grey: a frame that is brighter everywhere has them as much higher.
+    #[test]
+    fn a_brighter_frame_has_thresholds_as_much_higher() {
+        // Rings that grow slowly, so that thresholds between the seed and the sharpest border are tried.
+        let grey: std::vec::Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| {
+                let away = libm::hypot((k % SIDE) as f64 - 10.0, (k / SIDE) as f64 - 20.0);
+                (50.0 + 12.0 * away + if away > 9.0 { 300.0 } else { 0.0 }) as u16
+            })
+            .collect();
+        let levels = |more: u16| {
+            let grey: std::vec::Vec<u16> = grey.iter().map(|value| value + more).collect();
+            let mut memory = [0; STATISTICS];
+            let levels = statistics_of(&grey, &mut memory).levels([4.0, 600.0]);
+            levels
+                .iter()
+                .map(|level| level - more)
+                .collect::<std::vec::Vec<_>>()
+        };
+        let own = levels(0);
+        assert!(own.len() > 2, "{own:?}");
+        assert_eq!(levels(100), own);
+        let below = own.iter().filter(|&&level| level < own[0]);
+        assert!(below.count() > 0 && own[0] >= 150, "{own:?}");
+    }
+
     #[test]
     fn where_a_shutter_ends_a_region_it_has_no_border() {
         let mut memory = [0; STATISTICS];

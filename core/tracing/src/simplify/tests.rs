@@ -195,3 +195,22 @@ fn what_is_impossible_is_said() {
     let nothing = simplify(&[], &ring(1.0), |_| false, &mut [], &mut out);
     assert_eq!(nothing, Ok(ShapeError::default()));
 }
+
+#[test]
+fn given_points_are_vertices_of_their_own_numbers() {
+    let points = [(0.0, 1.0), (2.0, 3.0), (4.0, 0.0)].map(|(c, r)| Point::new(c, r));
+    let mut places = [Vertex::default(); 3];
+    let mut out = List::new(&mut places);
+    for closed in [false, true] {
+        assert_eq!(as_vertices(&points, closed, &mut out), Ok(()));
+        let expected = [0, 1, 2].map(|number| Vertex::kept(number, points[number]));
+        assert_eq!(out.as_slice(), expected);
+        let few = &points[..if closed { 2 } else { 1 }];
+        assert!(matches!(
+            as_vertices(few, closed, &mut out),
+            Err(TracingError::TooFewPoints { .. })
+        ));
+    }
+    let mut short = [Vertex::default(); 2];
+    assert!(as_vertices(&points, true, &mut List::new(&mut short)).is_err());
+}

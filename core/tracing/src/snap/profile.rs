@@ -92,3 +92,53 @@ impl<'a, P: Pixel> Reader<'a, P> {
         grey_across(self.frame, place, sample.normal, &TANGENT, t)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::side::Inside;
+    use crate::synthetic::SyntheticFrame;
+    use crate::vertex::Vertex;
+    use fluoropose::image::contour::Point;
+    use std::vec::Vec;
+
+    /// Of many places of a frame that is noise alone: a fourth of the least slope of an edge.
+    #[test]
+    fn an_edge_is_so_many_times_as_steep_as_noise() {
+        const NOISE: f64 = 200.0;
+        let mut drawn = SyntheticFrame::new(200, 200, 20_000.0);
+        drawn.add_noise(NOISE, 5);
+        let pixels = drawn.sixteen_bit();
+        let frame = Frame::new(&pixels, 200, 200, 200).expect("fits");
+        let settings = Snap {
+            closed: false,
+            hand: Hand::Either,
+            inside: Inside::Dark,
+            reach: 4.0,
+            tolerance: 0.1,
+        };
+        let reader = Reader::new(&frame, NOISE, &settings);
+        let mut slopes = Vec::new();
+        for (column, row) in (20..180)
+            .step_by(9)
+            .flat_map(|column| (20..180).map(move |row| (column, row)))
+        {
+            let mut all = [0f32; STATES];
+            let sample = Sample {
+                vertex: Vertex::new(Point::new(column as f64 + 0.5, row as f64 + 0.5)),
+                normal: [1.0, 0.0],
+                ..Sample::default()
+            };
+            reader.slopes(&sample, &mut all);
+            slopes.push(f64::from(all[STATES / 2]));
+            assert!(
+                all[..STATES / 2 - 8].iter().all(|&slope| slope == 0.0),
+                "beyond the reach"
+            );
+            assert!(all[STATES / 2 - 8] > 0.0 && all[STATES / 2 + 8] > 0.0);
+        }
+        let mean = slopes.iter().map(|slope| slope * slope).sum::<f64>() / slopes.len() as f64;
+        let ratio = reader.least() / (TIMES_NOISE * sqrt(mean));
+        assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+    }
+}

@@ -275,6 +275,135 @@ mod tests {
         assert!(usual(&[], 0, 0.0) > 0.0);
     }
 
+    /// The worth of places for each sample, less what each step between neighbours costs; none where a step is too steep.
+    fn worth_of(tracker: &Tracker<'_>, places: &[usize], closed: bool) -> f64 {
+        let count = places.len();
+        let own = (0..count).map(|number| {
+            let is_end = !closed && (number == 0 || number + 1 == count);
+            // The ends of an open line stay whatever that is worth.
+            if is_end {
+                0.0
+            } else {
+                tracker.worth(number, places[number])
+            }
+        });
+        let steps = (usize::from(!closed)..count).map(|number| {
+            let step = tracker.samples[number].step;
+            let apart = places[number].abs_diff(places[(number + count - 1) % count]) as f64 * STEP;
+            let is_steep = apart > step + STEP;
+            if is_steep {
+                f64::INFINITY
+            } else {
+                BEND * apart * apart / step
+            }
+        });
+        own.sum::<f64>() - steps.sum::<f64>()
+    }
+
+    /// Oracle: all ways through five places of each of six samples. A ring is at the best of those that begin at the place that is held.
+    #[test]
+    fn no_other_way_is_worth_more() {
+        const COUNT: usize = 6;
+        for seed in 0..12 {
+            let mut random = crate::synthetic::Random(seed);
+            let mut slopes: Vec<f32> = (0..COUNT * STATES)
+                .map(|_| 9.0 * random.uniform() as f32)
+                .collect();
+            let mut samples: Vec<Sample> = (0..COUNT)
+                .map(|_| Sample {
+                    step: 0.6 + 1.2 * random.uniform(),
+                    ..Sample::default()
+                })
+                .collect();
+            let mut tracker = Tracker {
+                samples: &mut samples,
+                slopes: &mut slopes,
+                ways: &mut [0; COUNT * STATES],
+                least: 2.0,
+                usual: 5.0,
+                half: 2,
+            };
+            let all = || {
+                (0..5usize.pow(COUNT as u32)).map(|way| -> [usize; COUNT] {
+                    core::array::from_fn(|number| MIDDLE - 2 + way / 5usize.pow(number as u32) % 5)
+                })
+            };
+            let found = |tracker: &Tracker<'_>| -> [usize; COUNT] {
+                core::array::from_fn(|number| tracker.state_of(number))
+            };
+            let most = |tracker: &Tracker<'_>,
+                        closed: bool,
+                        is_possible: &dyn Fn(&[usize; COUNT]) -> bool| {
+                let worths = all()
+                    .filter(|way| is_possible(way))
+                    .map(|way| worth_of(tracker, &way, closed));
+                worths.fold(f64::NEG_INFINITY, f64::max)
+            };
+            tracker.run_between_ends();
+            let own = found(&tracker);
+            assert_eq!((own[0], own[COUNT - 1]), (MIDDLE, MIDDLE));
+            let best = most(&tracker, false, &|way| {
+                way[0] == MIDDLE && way[COUNT - 1] == MIDDLE
+            });
+            assert!(
+                (worth_of(&tracker, &own, false) - best).abs() < 1e-9,
+                "{own:?}"
+            );
+            for held in MIDDLE - 2..=MIDDLE + 2 {
+                tracker.run(3, Some(held));
+                let own = found(&tracker);
+                let best = most(&tracker, true, &|way| way[3] == held);
+                assert_eq!(own[3], held);
+                assert!(
+                    (worth_of(&tracker, &own, true) - best).abs() < 1e-9,
+                    "{own:?}"
+                );
+            }
+        }
+    }
+
+    /// Each sample with the two beside it, of a ring all and of an open line all but its ends.
+    #[test]
+    fn an_offset_is_averaged_where_all_three_have_an_edge() {
+        const COUNT: usize = 7;
+        let peaks = [1i32, 3, 2, 5, 4, 1, 3];
+        let faint = 4;
+        for closed in [true, false] {
+            let mut slopes = Vec::new();
+            for (number, &peak) in peaks.iter().enumerate() {
+                let high = if number == faint { 0.5f32 } else { 9.0 };
+                let at = |state: usize| (state as i32 - MIDDLE as i32 - peak).abs() as f32;
+                slopes.extend((0..STATES).map(|state| (high - 0.4 * high * at(state)).max(0.0)));
+            }
+            let offsets = peaks.map(|peak| STEP * f64::from(peak));
+            let mut samples = offsets.map(|offset| Sample {
+                offset,
+                ..Sample::default()
+            });
+            let mut tracker = Tracker {
+                samples: &mut samples,
+                slopes: &mut slopes,
+                ways: &mut [],
+                least: 1.0,
+                usual: 5.0,
+                half: 8,
+            };
+            tracker.settle(closed);
+            let has_edge =
+                |number: usize| number != faint && (closed || (number > 0 && number + 1 < COUNT));
+            for (number, sample) in samples.iter().enumerate() {
+                let [before, after] = [(number + COUNT - 1) % COUNT, (number + 1) % COUNT];
+                let mean = (offsets[before] + 2.0 * offsets[number] + offsets[after]) / 4.0;
+                let all = [before, number, after].into_iter().all(has_edge);
+                assert_eq!(sample.on_edge, has_edge(number));
+                assert!(
+                    (sample.offset - if all { mean } else { offsets[number] }).abs() < 1e-6,
+                    "{number}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn between_places_the_top_is_that_of_a_parabola() {
         let top = |peak: f64| {

@@ -315,3 +315,59 @@ fn the_nearest_place_within_reach_is_found() {
         Some((19, 9))
     );
 }
+
+proptest! {
+    /// Oracle: the pixels that a flood from outside does not reach through what is not the region, by columns and rows as the region's own.
+    #[test]
+    fn an_outer_border_is_around_all_of_a_region(cells in proptest::collection::vec(proptest::bool::weighted(0.7), 12 * 9)) {
+        const COLUMNS: usize = 12;
+        const ROWS: usize = 9;
+        let inside = |column: usize, row: usize| column < COLUMNS && row < ROWS && cells[row * COLUMNS + column];
+        let beside = |(column, row): (usize, usize)| {
+            [(column + 1, row), (column.wrapping_sub(1), row), (column, row + 1), (column, row.wrapping_sub(1))]
+        };
+        let mut known = std::vec![false; COLUMNS * ROWS];
+        for seed in (0..COLUMNS * ROWS).filter(|&seed| cells[seed]) {
+            let seed = (seed % COLUMNS, seed / COLUMNS);
+            if known[seed.1 * COLUMNS + seed.0] {
+                continue;
+            }
+            let mut region = std::vec![seed];
+            let mut next = 0;
+            while let Some(&at) = region.get(next) {
+                let more = beside(at).into_iter().filter(|&(column, row)| inside(column, row));
+                let more: Vec<_> = more.filter(|at| !region.contains(at)).collect();
+                region.extend(more);
+                next += 1;
+            }
+            region.iter().for_each(|&(column, row)| known[row * COLUMNS + column] = true);
+            // With a frame of one cell around all, from which everything outside is reached, across corners too.
+            let mut outside = std::vec![(0usize, 0usize)];
+            let mut next = 0;
+            while let Some(&(x, y)) = outside.get(next) {
+                for (right, down) in (0..9).map(|k| (k % 3, k / 3)) {
+                    let at = ((x + right).wrapping_sub(1), (y + down).wrapping_sub(1));
+                    let is_region = at.0 > 0 && at.1 > 0 && region.contains(&(at.0 - 1, at.1 - 1));
+                    if at.0 < COLUMNS + 2 && at.1 < ROWS + 2 && !is_region && !outside.contains(&at) {
+                        outside.push(at);
+                    }
+                }
+                next += 1;
+            }
+            let whole = (COLUMNS + 2) * (ROWS + 2) - outside.len();
+            for &pixel in &region {
+                let start = region::outer_border(pixel, inside);
+                let (mut at, mut twice_area) = (start, 0);
+                loop {
+                    let next = at.step();
+                    twice_area += at.column * next.row - at.row * next.column;
+                    at = next.turn_where(inside);
+                    if at == start {
+                        break;
+                    }
+                }
+                prop_assert_eq!(twice_area, 2 * whole as i64);
+            }
+        }
+    }
+}

@@ -271,3 +271,61 @@ fn a_target_stops_the_search_and_what_is_not_reached_has_no_path() {
         Err(TracingError::OtherFrame)
     );
 }
+
+/// Of edges as strong as can be and of none a step costs what is said, of others what lies between, the faint ones nearly all.
+#[test]
+fn a_step_costs_less_along_a_stronger_edge_and_more_across_a_corner() {
+    let prices = Prices::new(Hand::Either);
+    let [side, corner] = &prices.by_strength;
+    assert_eq!((side[0], side[255], corner[0]), (256, 6, 362));
+    assert!(side.is_sorted_by(|a, b| a >= b) && corner.is_sorted_by(|a, b| a >= b));
+    for strength in 0..=255 {
+        let longer = f64::from(side[strength]) * sqrt(2.0);
+        assert!((f64::from(corner[strength]) - longer).abs() < 1.3);
+        // Where twice as much is lacking four times as much is paid beside the least.
+        let above = |strength: usize| f64::from(side[strength]) - 6.0;
+        let (lacking, twice) = (255 - strength, 255usize.checked_sub(2 * (255 - strength)));
+        if let Some(twice) = twice {
+            assert!((above(twice) - 4.0 * above(255 - lacking)).abs() <= 2.5);
+        }
+    }
+}
+
+#[test]
+fn an_edge_counts_by_the_side_that_it_has_the_implant_on() {
+    let [left, either, right] =
+        [Hand::Left, Hand::Either, Hand::Right].map(|hand| Prices::new(hand).alignment);
+    assert_eq!(
+        (right[0], right[64], right[128], right[192]),
+        (256, 0, 0, 0)
+    );
+    for angle in 0..256 {
+        let opposite = (angle + 128) % 256;
+        // A cosine is cut down to a whole number, and that of the opposite angle may be rounded otherwise.
+        assert!(left[angle].abs_diff(right[opposite]) <= 1);
+        assert_eq!(either[angle], left[angle].max(right[angle]));
+    }
+}
+
+/// A line is the same whichever of its places are named as its points, and the other way round it has the implant on the other hand.
+#[test]
+fn the_hand_of_a_line_does_not_depend_on_its_points() {
+    let edges = random_edges(60 * 50, 3);
+    let costs = Costs::new(&edges, 60, 50).expect("fits");
+    let line = [(3i32, 4i32), (45, 4), (45, 11), (20, 11), (20, 44)];
+    let place = |(column, row): (i32, i32)| Point::new(column.into(), row.into());
+    let mut more = Vec::new();
+    for pair in line.windows(2) {
+        let [(column, row), to] = [pair[0], pair[1]];
+        let (right, down) = ((to.0 - column).signum(), (to.1 - row).signum());
+        // Whole pixels, of which each is looked at once whatever it is a part of.
+        more.extend([0, 2, 3, 5].map(|away| place((column + away * right, row + away * down))));
+    }
+    more.push(place(line[4]));
+    let line = line.map(place);
+    let hand = hand_of(&costs, &line);
+    assert!(hand.abs() > 0.01 && (hand_of(&costs, &more) - hand).abs() < 1e-9);
+    more.reverse();
+    assert!((hand_of(&costs, &more) + hand).abs() < 1e-9);
+    assert_eq!(hand_of(&costs, &line[..1]), 0.0);
+}

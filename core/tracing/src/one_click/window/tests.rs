@@ -275,3 +275,66 @@ fn what_is_not_of_the_picture_is_as_the_nearest_that_is() {
         }
     }
 }
+
+/// Oracle: of each pixel the nearest in its row that is seen, of rows without one the nearest row; of two as near the later one.
+#[test]
+fn what_is_not_seen_repeats_the_nearest_that_is() {
+    let (width, height) = (9, 7);
+    let window = Window {
+        left: 0,
+        top: 0,
+        width,
+        height,
+    };
+    let nearest = |at: usize, seen: &[usize]| {
+        let away = |other: &&usize| (other.abs_diff(at), usize::MAX - **other);
+        seen.iter().min_by_key(away).copied()
+    };
+    for case in 1..200usize {
+        // Few rows have any, and few pixels of these.
+        let is_seen = |index: usize| {
+            let row = index / width;
+            (row * row * 5 + case).is_multiple_of(3) && (index * index * 7 + case * index) % 5 < 2
+        };
+        let given: std::vec::Vec<u16> = (0..width * height).map(|k| 100 + k as u16).collect();
+        let mut grey = given.clone();
+        repeat_borders(&mut grey, &window, is_seen);
+        let seen_in = |row: usize| -> std::vec::Vec<usize> {
+            (0..width)
+                .filter(|column| is_seen(row * width + column))
+                .collect()
+        };
+        let rows: std::vec::Vec<usize> = (0..height)
+            .filter(|&row| !seen_in(row).is_empty())
+            .collect();
+        for (index, &found) in grey.iter().enumerate() {
+            let from = nearest(index / width, &rows)
+                .and_then(|row| Some(row * width + nearest(index % width, &seen_in(row))?));
+            assert_eq!(found, given[from.unwrap_or(index)], "{case}: {index}");
+        }
+    }
+}
+
+/// Oracle: greys counted one by one. As many as are cut off at either end lie beyond the scale, and with one bin less there were more.
+#[test]
+fn all_but_a_few_pixels_lie_on_the_scale() {
+    for (few_dark, few_bright) in [(0, 0), (4, 5), (5, 4), (6, 6), (40, 0)] {
+        let count = 10_000;
+        let mut grey: std::vec::Vec<u16> = (0..count)
+            .map(|k| 6400 + (k * 37 % 20_000) as u16)
+            .collect();
+        grey[..few_dark].fill(130);
+        grey[count - few_bright..].fill(64_000);
+        let (dark, bright) = ends(&grey, &mut [0; LEVELS]);
+        let below = |level: u16| grey.iter().filter(|&&value| value < level).count();
+        let above = |level: u16| grey.iter().filter(|&&value| value >= level).count();
+        let few = count / 2000;
+        assert!(below(dark) <= few && below(dark + 64) > few, "{dark}");
+        assert!(above(bright) <= few && above(bright - 64) > few, "{bright}");
+    }
+    // Of one grey alone there is a scale too, up to the greatest.
+    for value in [0, 700, u16::MAX] {
+        let (dark, bright) = ends(&[value; 50], &mut [0; LEVELS]);
+        assert!(dark <= value && bright > dark, "{value}");
+    }
+}

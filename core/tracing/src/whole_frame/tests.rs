@@ -1,0 +1,101 @@
+//! In which frames is searched, and how near places and poses are to each other.
+
+use super::*;
+use crate::PlacesBuffers;
+use crate::one_click::tests::{library, model, pose};
+use fluoropose::finder::FinderBuffers;
+use fluoropose::image::frame::Frame;
+use fluoropose::image::mask::{Mask, MaskMut, words_needed};
+use fluoropose::library::Library;
+use fluoropose::mesh::Model;
+use fluoropose::pose::EulerPose;
+use fluoropose::refine::Polarity;
+use fluoropose::render::{Projected, render};
+use fluoropose::search::kernels::Kernels;
+
+/// Widths of the frames in which the first click searches, where there is any, of frames that are so many pixels wide.
+fn searched(side: usize) -> [Option<usize>; 3] {
+    let (vertices, triangles) = model();
+    let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+    let bytes = library(model, 1000.0);
+    let library = Library::open(&bytes).expect("a library");
+    let times = side as f64 / 384.0;
+    let camera = Camera::new(side, side, [1800.0 * times; 2], [192.0 * times; 2]);
+    let camera = camera.expect("valid");
+    let mut words = std::vec![0; words_needed(side, side)];
+    let mut mask = MaskMut::new(&mut words, side, side).expect("fits");
+    let mut scratch = std::vec![Projected::default(); vertices.len()];
+    render(&model, &camera, &pose(), &mut scratch, &mut mask).expect("in front");
+    let mask = Mask::new(&words, side, side).expect("valid");
+    let grey = |k: usize| match mask.get(k % side, k / side) {
+        true => 9000,
+        false => 20_000 + 4 * (k % side) as u16,
+    };
+    let pixels: std::vec::Vec<u16> = (0..side * side).map(grey).collect();
+    let frame = Frame::new(&pixels, side, side, side).expect("fits");
+    let image = ImageTarget {
+        frame: &frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: None,
+    };
+    let component = Component {
+        library: &library,
+        model: &model,
+        planes: &[],
+    };
+    let (mut buffers, mut finder) = (PlacesBuffers::default(), FinderBuffers::default());
+    let mut memory = buffers.borrow(&camera, finder.workspace(&library, Kernels::PORTABLE));
+    [Places::Shaped, Places::Dark, Places::All].map(|places| {
+        let begun = WholeFrame::new(&image, &component, &camera, (places, None), &mut memory);
+        let search = begun.expect("enough memory");
+        search.needs().map(|_| search.reduction.camera().width())
+    })
+}
+
+/// Of points that lie as far from the camera, in any direction from the middle.
+#[test]
+fn a_place_is_as_far_from_a_point_as_the_point_that_is_seen_there() {
+    let camera = Camera::new(640, 480, [1500.0, 1700.0], [300.0, 250.0]).expect("valid");
+    let middle = [12.0, -30.0, -800.0];
+    for [x, y] in [[0.0, 0.0], [30.0, 0.0], [0.0, -40.0], [-21.0, 20.0]] {
+        let place = camera.project(&[middle[0] + x, middle[1] + y, middle[2]]);
+        let away = distance_mm(&place.expect("seen"), &middle, &camera);
+        assert!((away - f64::hypot(x, y)).abs() < 1e-9, "{away}");
+    }
+    let behind = distance_mm(&Point::new(0.0, 0.0), &[0.0, 0.0, 800.0], &camera);
+    assert_eq!(behind, f64::INFINITY);
+}
+
+#[test]
+fn poses_are_near_each_other_by_their_turn_and_by_a_part_of_their_distance() {
+    let pose = |y_rot_deg: f64, x_mm: f64| {
+        let euler = EulerPose {
+            y_rot_deg,
+            x_mm,
+            z_mm: -1000.0,
+            ..EulerPose::default()
+        };
+        Pose::from(euler)
+    };
+    for (turn_deg, x_mm, near) in [
+        (0.0, 0.0, true),
+        (1.9, 19.9, true),
+        (-1.9, -19.9, true),
+        (2.1, 0.0, false),
+        (0.0, 20.1, false),
+    ] {
+        assert_eq!(
+            is_near(&pose(turn_deg, x_mm), &pose(0.0, 0.0), 2.0, 0.02),
+            near
+        );
+    }
+}
+
+#[test]
+fn large_things_are_looked_for_from_afar_and_small_ones_as_they_are() {
+    let [shaped, dark, all] = searched(1536).map(Option::unwrap_or_default);
+    assert!(0 < shaped && shaped < 1536 / 2, "{shaped}");
+    assert_eq!([dark, all], [shaped; 2]);
+    assert_eq!(searched(192), [Some(192); 3]);
+}
