@@ -266,11 +266,9 @@ fn fill_along(mask: &mut MaskMut<'_>, sample: &OutlineSample, length: f64) {
         let [column, row] = along(sample, 0.5 * k as f64);
         for side in [-0.5, 0.0, 0.5] {
             let (column, row) = (column - side * down, row + side * right);
+            // Beyond the other sides of the mask nothing is set.
             if column >= 0.0 && row >= 0.0 {
-                let (column, row) = (column as usize, row as usize);
-                if column < mask.width() && row < mask.height() {
-                    mask.set(column, row, true);
-                }
+                mask.set(column as usize, row as usize, true);
             }
         }
     }

@@ -271,8 +271,8 @@ fn ends(grey: &[u16], histogram: &mut [u32]) -> (u16, u16) {
         .len()
         .saturating_sub(1 + rank(histogram.iter().rev(), few));
     let edge = |bin: usize| (bin << BIN_SHIFT).min(usize::from(u16::MAX) - 1) as u16;
-    let (dark, bright) = (edge(low), edge(high + 1));
-    (dark, bright.max(dark + 1))
+    // The last bin is no lower than the first, for hardly any pixels lie beyond either.
+    (edge(low), edge(high + 1))
 }
 
 /// Number of the count at which the sum of counts exceeds `few`.

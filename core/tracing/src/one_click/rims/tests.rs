@@ -180,3 +180,32 @@ fn an_outline_moved_out_covers_what_lies_between() {
         [(SIDE - 1, 3), (SIDE - 1, 4)]
     );
 }
+
+/// Slopes that rise to one place and fall behind it: an edge is found there to half the distance of two readings, and no farther.
+#[test]
+fn a_second_edge_lies_where_it_is_steepest() {
+    let find = |work: &OneClick, seen: &Observation<'_>| work.second_edge(seen, &sample(AT), REACH);
+    for beyond in [8.0, 10.5, 13.0, 20.0] {
+        let pixels: Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| {
+                let column = (k % SIDE) as f64 + 0.5;
+                let rise = |at: f64, by: f64| by / (1.0 + libm::exp(at - column));
+                (20_000.0 + rise(AT, 2000.0) + rise(AT + beyond, 1200.0)) as u16
+            })
+            .collect();
+        let found = asked(&pixels, Polarity::DarkImplant, find).expect("an edge");
+        assert!((found - beyond).abs() <= STEP, "{found} for {beyond}");
+    }
+}
+
+#[test]
+fn a_sample_on_a_faint_edge_is_on_none() {
+    // A slope of 25 where 250 is expected, and one of 37.
+    for (rise, right) in [(100.0, false), (150.0, true)] {
+        let pixels = rising(&[(AT, rise)]);
+        let is_on = asked(&pixels, Polarity::DarkImplant, |work, seen| {
+            work.is_on_edge(seen, &sample(AT))
+        });
+        assert_eq!(is_on, right, "{rise}");
+    }
+}
