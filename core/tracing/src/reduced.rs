@@ -297,6 +297,20 @@ mod tests {
         let ends = (room.0.iter().min(), room.0.iter().max());
         assert_eq!(ends, (Some(&0), Some(&u16::MAX)));
         assert!(room.1.iter().all(|&word| word == 0));
+        // A pixel at the border, of which a part reaches beyond the middles of the frame's own, is known too.
+        for times in [1.5, 1.6, 2.3, 3.1] {
+            let reduction = Reduction::of(times * SIZE, &camera());
+            let needs = reduced_needed(&camera());
+            let mut room = (std::vec![7; needs.pixels], std::vec![7; needs.words]);
+            let mut memory = ReducedMemory {
+                pixels: &mut room.0,
+                unknown: &mut room.1,
+            };
+            reduction.write(&image, &mut memory).expect("enough memory");
+            let [width, height] = sides(&camera(), times);
+            let unknown = &room.1[..words_needed(width, height)];
+            assert!(unknown.iter().all(|&word| word == 0), "{times}");
+        }
         let written = |pixels, words| {
             let written = ReducedPixels {
                 pixels: &room.0[..pixels],

@@ -302,3 +302,35 @@ fn wrong_settings_are_said() {
         Err(TracingError::Memory(_))
     ));
 }
+
+/// An outline is the same whichever of its points is the first, and what is made of it remembers the same places.
+#[test]
+fn the_first_point_of_an_outline_does_not_matter() {
+    let points = circle([64.0, 64.0], 40.0, 60);
+    let stroke = [place(104.0, 58.0), place(106.0, 66.0), place(99.0, 73.0)];
+    for what in [Brush::Add, Brush::Erase] {
+        let from_first = |first: usize| {
+            let mut rotated = points.clone();
+            rotated.rotate_left(first);
+            let (line, _) = brushed(&rotated, &stroke, 6.0, what);
+            let known = line.iter().filter(|vertex| vertex.from != NEW);
+            let mut known: Vec<(f64, Point)> = known
+                .map(|vertex| ((vertex.from + first as f64) % 60.0, vertex.at))
+                .collect();
+            known.sort_by(|a, b| a.0.total_cmp(&b.0));
+            known
+        };
+        let own = from_first(0);
+        for first in [1, 2, 3, 30, 57, 58, 59] {
+            let other = from_first(first);
+            assert_eq!(other.len(), own.len(), "{first}");
+            for ((from, at), (other_from, other_at)) in own.iter().zip(&other) {
+                assert!(
+                    (from - other_from).abs() < 1e-6,
+                    "{first}: {from} {other_from}"
+                );
+                assert!(squared_distance(*at, (*other_at, *other_at)) < 1e-12);
+            }
+        }
+    }
+}

@@ -253,3 +253,50 @@ fn what_is_held_is_in_line_and_has_the_same_side_bright() {
     assert_eq!(turned, [true, true, false, false, false]);
     assert!(!Follower::default().is_held(&costs, edges[0], Point::new(20.5, 15.5)));
 }
+
+/// Of edges in any direction: what lies along one is on it, what lies across is beside it, and what has the other side bright is another.
+#[test]
+fn an_edge_is_held_along_its_line() {
+    const WIDTH: usize = 41;
+    for eighth in 0..8u8 {
+        let outwards = 32 * eighth;
+        let edges = std::vec![Edge { strength: 200, outwards }; WIDTH * WIDTH];
+        let costs = Costs::new(&edges, WIDTH, WIDTH).expect("fits");
+        let target = 20 * WIDTH + 20;
+        let held = Follower {
+            held: Some(Held {
+                target,
+                anchor: target,
+            }),
+        };
+        let (sin, cos) = sin_cos(core::f64::consts::TAU * f64::from(eighth) / 8.0);
+        let is_held = |along: f64, across: f64, outwards: u8| {
+            let middle = Point::new(
+                20.5 + across * cos - along * sin,
+                20.5 + across * sin + along * cos,
+            );
+            held.is_held(
+                &costs,
+                Edge {
+                    strength: 200,
+                    outwards,
+                },
+                middle,
+            )
+        };
+        for along in [-9.0, -3.0, 0.0, 5.0] {
+            assert!(is_held(along, 0.0, outwards), "{eighth} {along}");
+            assert!(is_held(along, 0.9, outwards) && is_held(along, -0.9, outwards));
+            assert!(!is_held(along, 6.0, outwards) && !is_held(along, -6.0, outwards));
+            for turn in [30u8, 226] {
+                assert!(is_held(along, 0.0, outwards.wrapping_add(turn)));
+                assert!(!is_held(
+                    along,
+                    0.0,
+                    outwards.wrapping_add(turn).wrapping_add(128)
+                ));
+            }
+        }
+        assert!(!Follower::default().is_held(&costs, edges[0], Point::new(20.5, 20.5)));
+    }
+}

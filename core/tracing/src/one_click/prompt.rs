@@ -265,6 +265,40 @@ mod tests {
         assert_eq!(agreement([51.0, 0.0, 60.0, 60.0]), 0.0);
     }
 
+    /// Oracle: every pixel that is drawn, moved by as much to each side.
+    #[test]
+    fn a_silhouette_is_within_a_prompt_where_a_little_moved_it_meets_it() {
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        (25..35).for_each(|row| mask.fill_span(row, 28, 36));
+        let drawn = mask.into_mask();
+        for (px, number) in (0..6usize).flat_map(|px| (0..64).map(move |number| (px, number))) {
+            let (column, row) = (number % 8 * 9, number / 8 * 9);
+            let reach = FAR + px;
+            let beyond = |at: usize, first: usize, end: usize| {
+                first.saturating_sub(at).max((at + 1).saturating_sub(end))
+            };
+            let away = beyond(column, 28, 36).max(beyond(row, 25, 35));
+            let click = Prompt::Click(Point::new(column as f64 + 0.5, row as f64 + 0.5));
+            assert_eq!(
+                click.is_within(&drawn, px as f64),
+                away <= reach,
+                "{column} {row} {px}"
+            );
+            let side = |at: usize| (at as f64, at as f64 + 9.0);
+            let ((left, right), (top, bottom)) = (side(column), side(row));
+            let gap = |from: f64, to: f64, first: f64, end: f64| (first - to).max(from - end);
+            let gap = gap(left, right, 28.0, 36.0).max(gap(top, bottom, 25.0, 35.0));
+            for corners in [[left, top, right, bottom], [right, top, left, bottom]] {
+                assert_eq!(
+                    boxed(corners).is_within(&drawn, px as f64),
+                    gap <= px as f64,
+                    "{corners:?} {px}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn prompts_beside_the_frame_are_refused() {
         let camera = Camera::new(SIDE, SIDE, [400.0, 400.0], [32.0, 32.0]).expect("valid");
@@ -272,6 +306,11 @@ mod tests {
             let click = Prompt::Click(Point::new(at, 5.0));
             assert_eq!(click.window(&camera, 20.0), Err(OneClickError::Outside));
         }
+        let click = Prompt::Click(Point::new(30.5, 40.5));
+        let window = click.window(&camera, 9.0).expect("inside");
+        // As far to all sides.
+        assert_eq!((window.left, window.width), (21, 19));
+        assert_eq!((window.top, window.height), (31, 19));
         let small = boxed([60.0, 3.0, 90.0, 40.0]).window(&camera, 20.0);
         assert!(matches!(small, Err(OneClickError::SmallBox { .. })));
         let nothing = boxed([f64::NAN, 3.0, 90.0, 40.0]).window(&camera, 20.0);

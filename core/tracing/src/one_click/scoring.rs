@@ -237,6 +237,22 @@ mod tests {
     use fluoropose::image::mask::MaskMut;
 
     #[test]
+    fn edges_are_as_near_as_their_loss_is_small() {
+        let with = |part: f64| {
+            nearness(&Refined {
+                loss: part * WORST,
+                ..Refined::at(Pose::IDENTITY)
+            })
+        };
+        for part in [0.0, 0.25, 0.75, 1.0, 3.5] {
+            assert!(
+                (with(part) - (1.0f64 - part).max(0.0)).abs() < 1e-12,
+                "{part}"
+            );
+        }
+    }
+
+    #[test]
     fn overlap_is_intersection_over_union() {
         let block = |rows: core::ops::Range<usize>| {
             let mut words = std::vec![0; words_needed(64, 64)];

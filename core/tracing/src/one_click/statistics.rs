@@ -224,7 +224,7 @@ mod tests {
         let grey: std::vec::Vec<u16> = (0..SIDE * SIDE)
             .map(|k| {
                 let away = libm::hypot((k % SIDE) as f64 - 10.0, (k / SIDE) as f64 - 20.0);
-                (50.0 + 12.0 * away + if away > 9.0 { 300.0 } else { 0.0 }) as u16
+                (50.0 + 6.0 * away + if away > 9.0 { 300.0 } else { 0.0 }) as u16
             })
             .collect();
         let levels = |more: u16| {
@@ -238,7 +238,7 @@ mod tests {
         };
         let own = levels(0);
         assert!(own.len() > 2, "{own:?}");
-        assert_eq!(levels(100), own);
+        assert_eq!([levels(100), levels(400)], [own.clone(), own.clone()]);
         let below = own.iter().filter(|&&level| level < own[0]);
         assert!(below.count() > 0 && own[0] >= 150, "{own:?}");
     }

@@ -117,3 +117,85 @@ fn slope(observation: &Observation<'_>, sample: &OutlineSample, reach: f64) -> O
     }
     Some(greatest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{SIDE, camera, seen};
+    use super::*;
+    use fluoropose::image::frame::Frame;
+    use fluoropose::math::sin_cos;
+    use std::vec::Vec;
+
+    /// Of a frame that grows brighter by so much a pixel in one direction, along any other.
+    #[test]
+    fn a_slope_is_what_a_frame_rises_by_a_pixel() {
+        const RISE: f64 = 40.0;
+        let (sin, cos) = sin_cos(0.5);
+        let pixels: Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| {
+                let (column, row) = ((k % SIDE) as f64 + 0.5, (k / SIDE) as f64 + 0.5);
+                (20_000.0 + RISE * (column * cos + row * sin)) as u16
+            })
+            .collect();
+        let (frame, camera) = (
+            Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits"),
+            camera(),
+        );
+        for turn in [0.0, 0.5, 1.3, 2.9] {
+            let (down, right) = sin_cos(turn);
+            let sample = OutlineSample {
+                column: 100.0,
+                row: 90.0,
+                normal: [right, down],
+                length: 1.0,
+                jacobian: [0.0; 6],
+            };
+            let expected = RISE * (right * cos + down * sin);
+            for (polarity, sign) in [
+                (Polarity::DarkImplant, 1.0),
+                (Polarity::BrightImplant, -1.0),
+            ] {
+                let seen = seen(&frame, &camera, polarity);
+                let own = slope(&seen, &sample, 3.0).expect("in the frame");
+                // Only slopes of the right sign are edges.
+                assert!(
+                    (own - (sign * expected).max(0.0)).abs() < 1.1,
+                    "{turn}: {own}"
+                );
+                let second = second_slope(&seen, &sample, 4.0).expect("in the frame");
+                assert!((second - sign * expected).abs() < 1.1, "{turn}: {second}");
+            }
+        }
+    }
+
+    /// An edge counts as far beside a sample as is asked, and the slope at its middle alone.
+    #[test]
+    fn an_edge_is_looked_for_within_a_reach() {
+        let pixels: Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| if k % SIDE < 100 { 9000 } else { 9600 })
+            .collect();
+        let (frame, camera) = (
+            Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits"),
+            camera(),
+        );
+        let seen = seen(&frame, &camera, Polarity::DarkImplant);
+        for (beside, reach, is_seen) in [
+            (0.0, 0.0, true),
+            (4.0, 2.0, false),
+            (4.0, 4.0, true),
+            (-4.0, 4.0, true),
+            (8.5, 40.0, true),
+            (10.5, 40.0, false),
+        ] {
+            let sample = OutlineSample {
+                column: 100.0 + beside,
+                row: 90.0,
+                normal: [1.0, 0.0],
+                length: 1.0,
+                jacobian: [0.0; 6],
+            };
+            let found = slope(&seen, &sample, reach).expect("in the frame");
+            assert_eq!(found > 0.0, is_seen, "{beside} {reach}");
+        }
+    }
+}

@@ -231,3 +231,34 @@ fn ends_of_a_line_and_ends_of_long_sides_stay() {
     assert_eq!(kept(true, &points), [true, false, true, true, true]);
     assert!(!stays(&points, false, &Vertex::new(points[0])));
 }
+
+#[test]
+fn the_ends_of_an_open_line_stay_however_short_its_sides_are() {
+    let points = [0.0, 2.0, 3.0, 5.0].map(|column| Point::new(column, 0.0));
+    let kept = |number: usize| stays(&points, false, &Vertex::kept(number, points[number]));
+    assert_eq!([0, 1, 2, 3].map(kept), [true, false, false, true]);
+}
+
+/// Edges are looked for across the line, whichever way round it is given, and of a ring at its first point too.
+#[test]
+fn normals_are_square_to_the_line() {
+    for (turned, closed) in [(false, true), (true, true), (false, false)] {
+        let mut points = circle(MIDDLE, 40.0, 120);
+        if turned {
+            points.reverse();
+        }
+        let settings = Snap { closed, ..RING };
+        let count = snap_needed(&points, closed).0;
+        let mut samples = std::vec![Sample::default(); count];
+        lay_out(&points, &settings, &mut samples).expect("as many");
+        for sample in &samples {
+            let off = [
+                sample.vertex.at.column - MIDDLE[0],
+                sample.vertex.at.row - MIDDLE[1],
+            ];
+            let outwards = (off[0] * sample.normal[0] + off[1] * sample.normal[1]) / 40.0;
+            // What lies around a dark disc is brighter. An end of an open line looks to one side alone.
+            assert!(outwards > 0.98, "{outwards}");
+        }
+    }
+}

@@ -404,6 +404,29 @@ mod tests {
         }
     }
 
+    /// By the square of the distance, from nothing on the line to all of it at the end of the reach.
+    #[test]
+    fn a_place_farther_from_the_line_is_worth_less() {
+        let mut slopes = [5.0f32; STATES];
+        slopes[MIDDLE + 1] = 0.9;
+        let tracker = Tracker {
+            samples: &mut [],
+            slopes: &mut slopes,
+            ways: &mut [],
+            least: 1.0,
+            usual: 5.0,
+            half: 8,
+        };
+        let worth = |place: usize| tracker.worth(0, place);
+        assert!((worth(MIDDLE) - 1.0).abs() < 1e-12, "a usual edge");
+        for (away, part) in [(2, 1.0 / 16.0), (4, 0.25), (6, 9.0 / 16.0), (8, 1.0)] {
+            for place in [MIDDLE - away, MIDDLE + away] {
+                assert!((worth(MIDDLE) - worth(place) - part * FAR).abs() < 1e-12);
+            }
+        }
+        assert!((worth(MIDDLE + 1) + FAR / 64.0).abs() < 1e-12, "no edge");
+    }
+
     #[test]
     fn between_places_the_top_is_that_of_a_parabola() {
         let top = |peak: f64| {
@@ -419,6 +442,8 @@ mod tests {
                 usual: 5.0,
                 half: 4,
             };
+            // There is no neighbour beyond either end.
+            assert_eq!([0, STATES - 1].map(|end| tracker.part(0, end)), [0.0; 2]);
             tracker.part(0, peak.round() as usize)
         };
         for off in [-0.4, -0.25, 0.0, 0.1, 0.45] {

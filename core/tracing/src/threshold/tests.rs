@@ -371,3 +371,25 @@ proptest! {
         }
     }
 }
+
+/// Of a rectangle with a sharp border, whatever else is as sharp.
+#[test]
+fn a_region_of_fewer_than_a_hundred_pixels_suggests_no_level() {
+    let scale = crate::smoothed::Scale::of(255);
+    for (width, height, is_found) in [(10, 10, true), (9, 11, false), (8, 8, false), (5, 20, true)]
+    {
+        let inside = |column: usize, row: usize| {
+            column.wrapping_sub(12) < width && row.wrapping_sub(7) < height
+        };
+        let cells: Vec<u16> = (0..50 * 40)
+            .map(|k| if inside(k % 50, k / 50) { 9000 } else { 40_000 })
+            .collect();
+        let frame = Smoothed::from_cells(&cells, 50, 40, scale).expect("fits");
+        let level = suggested_level(&frame, Point::new(13.5, 8.5), Inside::Dark);
+        assert_eq!(level.is_some(), is_found, "{width} x {height}");
+        let inverted: Vec<u16> = cells.iter().map(|cell| u16::MAX - cell).collect();
+        let frame = Smoothed::from_cells(&inverted, 50, 40, scale).expect("fits");
+        let level = suggested_level(&frame, Point::new(13.5, 8.5), Inside::Bright);
+        assert_eq!(level.is_some(), is_found, "{width} x {height}");
+    }
+}
