@@ -164,8 +164,12 @@ impl<'e> TightGroups<'e> {
 
     /// Whether they are that, of a surface of so many vertices, and nothing is behind them.
     pub(super) fn fit(mut self, vertices: usize) -> bool {
-        let fitting = (&mut self).filter(|(_, group)| group.fits(vertices));
-        fitting.count() == self.boxes && self.edges == 0 && self.bytes.is_empty()
+        let mut groups = 0;
+        let all_fit = (&mut self).all(|(_, group)| {
+            groups += 1;
+            group.fits(vertices)
+        });
+        all_fit && groups == self.boxes && self.edges == 0 && self.bytes.is_empty()
     }
 }
 
@@ -355,10 +359,13 @@ mod tests {
             edges in proptest::collection::vec(proptest::array::uniform4(prop_oneof![0u16..20, 0u16..40, 0u16..700]), 1..36),
             changes in proptest::collection::vec((any::<proptest::sample::Index>(), prop_oneof![0u8..4, any::<u8>()]), 0..3),
             cut in prop_oneof![Just(0usize), 0..4usize],
+            behind in prop_oneof![Just(0usize), 20..25usize],
         ) {
             let boxes = edges.len().div_ceil(IN_BOX);
             let mut bytes = tightened(&std::vec![[1.0; 10]; boxes], &edges);
             bytes.truncate(bytes.len() - cut);
+            // As many zeros as the head of a group without edges, or about so.
+            bytes.resize(bytes.len() + behind, 0);
             for (at, byte) in &changes {
                 let at = at.index(bytes.len());
                 bytes[at] = *byte;
