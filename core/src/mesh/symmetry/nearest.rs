@@ -374,7 +374,8 @@ mod tests {
                 for triangle in &triangles {
                     approach(image, &corners(&mesh, triangle, &samples.origin), &mut expected);
                 }
-                prop_assert_eq!(foot.squared, expected.squared);
+                // Of two triangles that share the place either may be asked: they differ by rounding.
+                prop_assert!((foot.squared - expected.squared).abs() <= 1e-12 * expected.squared);
             }
             // On tangents: of the sample that is nearest.
             feet_on_tangents(&samples, &images, &mut found);
