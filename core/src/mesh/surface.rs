@@ -251,7 +251,7 @@ mod tests {
         #[test]
         fn the_sphere_is_that_of_every_vertex(
             points in proptest::collection::vec(proptest::array::uniform3(-1.0..1.0f32), 1..60),
-            size in (-3.0..1.8f32).prop_map(libm::exp10f),
+            size in (-4.5..1.8f32).prop_map(libm::exp10f),
             flat in proptest::bool::weighted(0.2),
             are_ends in any::<bool>(),
             origin in proptest::array::uniform3(prop_oneof![Just(0.0f32), -50.0..50.0f32, -300.0..300.0f32, -9_000.0..9_000.0f32]),

@@ -165,7 +165,7 @@ impl<'e> TightGroups<'e> {
     /// Whether they are that, of a surface of so many vertices, and nothing is behind them.
     pub(super) fn fit(mut self, vertices: usize) -> bool {
         let mut groups = 0;
-        let all_fit = (&mut self).all(|(_, group)| {
+        let all_fit = self.all(|(_, group)| {
             groups += 1;
             group.fits(vertices)
         });
