@@ -214,3 +214,43 @@ fn given_points_are_vertices_of_their_own_numbers() {
     let mut short = [Vertex::default(); 2];
     assert!(as_vertices(&points, true, &mut List::new(&mut short)).is_err());
 }
+
+/// A band that winds twice around: chords as far from it as its windings are from each other cut through them.
+#[test]
+fn a_closed_line_is_thinned_out_until_it_does_not_cross_itself() {
+    let along = |side: f64| {
+        (0..120).map(move |step| {
+            let turn = 0.1 * f64::from(step);
+            let (sin, cos) = turn.sin_cos();
+            let radius = 6.0 + 1.2 * turn + side;
+            Point::new(60.0 + radius * cos, 60.0 + radius * sin)
+        })
+    };
+    let inner: Vec<Point> = along(0.0).collect();
+    let points: Vec<Point> = along(2.0).chain(inner.into_iter().rev()).collect();
+    let line: Vec<Vertex> = points
+        .iter()
+        .enumerate()
+        .map(|(k, &at)| Vertex::kept(k, at))
+        .collect();
+    let mut cut_through = 0;
+    for tolerance in [2.0, 4.0, 6.0, 8.0, 12.0] {
+        let mut marks = std::vec![false; line.len()];
+        mark(&line, true, tolerance, &|_: &Vertex| false, &mut marks);
+        let kept = line.iter().zip(&marks).filter(|(_, marked)| **marked);
+        let at_once: Vec<Vertex> = kept.map(|(vertex, _)| *vertex).collect();
+        cut_through += usize::from(crosses(&at_once));
+        let settings = Simplify {
+            closed: true,
+            tolerance,
+            balanced: false,
+        };
+        let mut places = line.clone();
+        let mut out = List::new(&mut places);
+        simplify(&line, &settings, |_| false, &mut marks, &mut out).expect("valid");
+        let made = out.as_slice();
+        assert!(!crosses(made) && made.len() < line.len() / 2, "{tolerance}");
+        assert_eq!(made.len() > at_once.len(), crosses(&at_once), "{tolerance}");
+    }
+    assert!(cut_through > 0);
+}

@@ -174,6 +174,16 @@ fn an_outline_moved_out_covers_what_lies_between() {
         "{diagonal:?}"
     );
     assert_eq!(set(0.4, 0.4, [-1.0, 0.0], 5.0), [(0, 0)]);
+    // Past a corner of the frame nothing is drawn along its sides.
+    for normal in [[-half, half], [half, -half]] {
+        let across = set(
+            0.4 + 5.0 * normal[1].max(0.0),
+            0.4 + 5.0 * normal[0].max(0.0),
+            normal,
+            20.0,
+        );
+        assert!(across.iter().all(|&(c, r)| c + r < 6), "{across:?}");
+    }
     let edge = SIDE as f64 - 0.5;
     assert_eq!(
         set(edge, 3.5, [1.0, 0.0], 9.0),
