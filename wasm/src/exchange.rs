@@ -365,9 +365,7 @@ mod tests {
                 let square = (c as i64 - 30).pow(2) + (r as i64 - 20).pow(2);
                 square + i64::from(noise % 400) - 200 < 200
             });
-            let found = outline_of_mask(&film(&pixels), 9, 0.4)
-                .ok()
-                .expect("outlines");
+            let found = outline(&pixels);
             touching += usize::from(found.exact.iter().any(|at| at.fract() != 0.0));
             let again = mask_of_outline(&found.exact, WIDTH as u32, HEIGHT as u32)
                 .ok()

@@ -4,16 +4,29 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::owned::OwnedModel;
-use crate::math::{Vector3, cross, norm, subtract};
+use crate::math::{Vector3, cross, dot, norm, subtract};
 
 /// A body with a smaller part of the surface than one in this many is a marker or a splinter, however finely it is cut.
 const SPLINTER: f64 = 20.0;
 
 impl OwnedModel {
-    /// Parts of the surface that share no vertex, but for splinters; at least one.
+    /// Bodies that lie apart, but for splinters; at least one. Those that overlap are one, as pegs and a box are that a design program left as bodies of
+    /// their own: told by how far they reach in [`DIRECTIONS`], so that some that merely lie close around each other are one, too.
     #[must_use]
     pub fn bodies(&self) -> usize {
-        self.pieces().filter(|piece| piece.is_body).count().max(1)
+        let bodies: Vec<Piece> = self.pieces().filter(|piece| piece.is_body).collect();
+        let mut joined: Vec<usize> = (0..bodies.len()).collect();
+        for (a, b) in (0..bodies.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            if bodies[a].overlaps(&bodies[b]) {
+                let [one, other] = [a, b].map(|body| root(&mut joined, body));
+                joined[one] = other;
+            }
+        }
+        let firsts = joined
+            .iter()
+            .enumerate()
+            .filter(|&(at, &first)| at == first);
+        firsts.count().max(1)
     }
 
     /// How far a splinter lies outside the box around the bodies, mm: 0 without any.
@@ -40,21 +53,29 @@ impl OwnedModel {
                 joined[other] = first;
             }
         }
-        let mut pieces = BTreeMap::<usize, (f64, Reach)>::new();
+        let mut pieces = BTreeMap::<usize, (f64, Reach, Extents)>::new();
         for triangle in triangles {
             let body = root(&mut joined, triangle[0] as usize);
             let corners = triangle.map(|vertex| model.vertices()[vertex as usize].map(f64::from));
             let [a, b, c] = corners;
-            let (area, reach) = pieces.entry(body).or_insert((0.0, NOWHERE));
+            let none = (0.0, NOWHERE, [[f64::INFINITY, f64::NEG_INFINITY]; 13]);
+            let (area, reach, extents) = pieces.entry(body).or_insert(none);
             *area += norm(&cross(&subtract(&b, &a), &subtract(&c, &a)));
             *reach = corners
                 .iter()
                 .fold(*reach, |reach, point| union(reach, [*point; 2]));
+            for (extent, direction) in extents.iter_mut().zip(&DIRECTIONS) {
+                let along = corners.map(|point| dot(direction, &point));
+                *extent = along
+                    .iter()
+                    .fold(*extent, |[low, high], &at| [low.min(at), high.max(at)]);
+            }
         }
-        let whole: f64 = pieces.values().map(|(area, _)| area).sum();
-        let piece = move |(area, reach)| Piece {
+        let whole: f64 = pieces.values().map(|(area, ..)| area).sum();
+        let piece = move |(area, reach, extents)| Piece {
             is_body: SPLINTER * area >= whole,
             reach,
+            extents,
         };
         pieces.into_values().map(piece)
     }
@@ -65,7 +86,37 @@ struct Piece {
     /// Whether it is more than a splinter.
     is_body: bool,
     reach: Reach,
+    extents: Extents,
 }
+
+impl Piece {
+    /// Whether nothing tells that it lies apart from another.
+    fn overlaps(&self, other: &Self) -> bool {
+        let both = self.extents.iter().zip(&other.extents);
+        both.into_iter()
+            .all(|([low, high], [other_low, other_high])| low <= other_high && other_low <= high)
+    }
+}
+
+/// The least and the greatest along each of [`DIRECTIONS`], in their lengths.
+type Extents = [[f64; 2]; 13];
+
+/// Sides, edges and corners of a cube, one of each two opposite ones.
+const DIRECTIONS: [Vector3; 13] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, 1.0],
+    [0.0, 1.0, -1.0],
+    [1.0, 1.0, 1.0],
+    [1.0, 1.0, -1.0],
+    [1.0, -1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+];
 
 /// The least and the greatest coordinates, mm.
 type Reach = [Vector3; 2];
@@ -127,7 +178,7 @@ mod tests {
                 let areas: f64 = own.map(|(triangle, _)| area(triangle)).sum();
                 areas * 20.0 >= whole * (1.0 - 1e-12) && areas > 0.0
             });
-            prop_assert_eq!(model.bodies(), large.count().max(1));
+            prop_assert_eq!(model.pieces().filter(|piece| piece.is_body).count().max(1), large.count().max(1));
         }
 
         /// Of two boxes that are alike but for their size, along any axis and on either side.
@@ -159,5 +210,26 @@ mod tests {
             of(&flat.map(|[x, y]| [x, y, 0.0]), &[[0, 1, 2], [3, 4, 5]]).bodies()
         };
         assert_eq!((with(1.0), with(0.999)), (2, 1));
+    }
+
+    /// A plate with a keel through it and pegs on it, and a part beside.
+    #[test]
+    fn bodies_that_overlap_are_one() {
+        let bodies = |boxes: &[[[f32; 3]; 2]]| {
+            let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+            for &[low, high] in boxes {
+                add_box(low, high, &mut vertices, &mut triangles);
+            }
+            of(&vertices, &triangles).bodies()
+        };
+        let plate = [[0.0; 3], [60.0, 4.0, 40.0]];
+        let keel = [[20.0, -40.0, 15.0], [35.0, 2.0, 25.0]];
+        let peg = [[5.0, 4.0, 5.0], [15.0, 20.0, 15.0]];
+        let beside = [[0.0, -40.0, 60.0], [60.0, -30.0, 100.0]];
+        assert_eq!(bodies(&[plate, keel, peg]), 1);
+        assert_eq!(bodies(&[plate, beside, keel, peg]), 2);
+        // Joined by the last alone.
+        let bridge = [[20.0, -38.0, 20.0], [30.0, -32.0, 70.0]];
+        assert_eq!(bodies(&[plate, beside, keel, bridge]), 1);
     }
 }
