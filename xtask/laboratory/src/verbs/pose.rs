@@ -72,8 +72,8 @@ pub struct Args {
     method: Method,
     #[command(flatten)]
     edges: EdgeOptions,
-    /// Which component this is; needed for --counterpart
-    #[arg(long, value_enum, requires = "counterpart")]
+    /// Which component this is: no pose is good of a model that has the other one's shape; needed for --counterpart
+    #[arg(long, value_enum)]
     role: Option<Role>,
     /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart; those that the table beside the file calls doubtful rule out nothing
     #[arg(long, value_name = "FILE", requires = "role")]

@@ -54,7 +54,7 @@ COMPONENT.covariances.csv: frame, and c11 to c66, row by row, the covariance of 
 shift of that middle (mm: 4 to 6), both along the camera's axes; film1_1 to film2_6: how turn and shift answer to one standard deviation of each of two constants of the film, which \
 is in the covariance already and moves both components together.\n\n\
 States: fixed (a person gave the pose: each row of --fixed that is not NaN), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
-(looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame, and with 3 where no pose is good or \
+(looked for and not there) and unsolved (never reached). The command exits with 7 where no component was found in any frame, and with 3 where no pose of a component is good or \
 numbers are such as no knee has. A run that is stopped (Ctrl-C, a task's end) loses nothing but the step in hand.\n\n\
 Of the standard deviations in track.csv: {}\n\n\
 Examples:\n  cargo xtask track --study study.toml --out tracked\n  \
@@ -134,7 +134,7 @@ pub fn run(args: Args) -> Result<u8> {
     }
     Ok(match &tracked {
         none if !none.iter().any(Tracked::is_found) => exit::NOTHING_FOUND,
-        all if wrong || !all.iter().any(Tracked::is_good) => exit::DOUBTFUL,
+        all if wrong || !all.iter().all(Tracked::is_good) => exit::DOUBTFUL,
         _ => 0,
     })
 }
