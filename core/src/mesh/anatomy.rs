@@ -4,6 +4,7 @@
 //! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. [`field_axes`] tells that much
 //! and no signs, for what does not depend on them; [`anatomical_axes`] tells which way is up and forwards too.
 
+mod cuts;
 mod faced;
 mod kind;
 mod signs;

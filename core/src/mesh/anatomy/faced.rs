@@ -10,6 +10,15 @@ pub(super) fn vertices<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = Vector3> + C
     mesh.vertices().iter().map(|vertex| vertex.map(f64::from))
 }
 
+/// How far points reach along an axis.
+pub(super) fn reach(points: impl Iterator<Item = Vector3>, axis: &Vector3) -> (f64, f64) {
+    points
+        .map(|point| dot(&point, axis))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        })
+}
+
 /// Middle, doubled area and normal times doubled area of every triangle.
 pub(super) fn faces<'m>(
     mesh: &Mesh<'m>,

@@ -3,9 +3,10 @@
 //! A femoral component seen from the side is a bow that opens towards the bone, upwards; its anterior flange is the longer
 //! arm, and what stands between the arms a stem. A tray's plate lies on top of its keel, and its border is notched behind, for the ligament.
 
-use super::faced::{between, faces, facing, vertices};
+use super::cuts::above_the_distal_cut;
+use super::faced::{between, faces, reach, vertices};
 use super::{KneeComponent, is_of_one_condyle, mediolateral_axis, own_axes, superoinferior_axis};
-use crate::math::{Vector3, add, cross, dot, norm, radians, scale, subtract};
+use crate::math::{Vector3, add, cross, dot, norm, scale, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::Pose;
@@ -70,23 +71,24 @@ fn square_to(axis: &Vector3, other: &Vector3) -> Option<Vector3> {
 
 /// Directions round the side view.
 const AROUND: usize = 72;
-/// The bone cut that faces upwards lies within this of the direction in which the bow opens, degrees.
-const CUT_WITHIN_DEG: f64 = 35.0;
-/// Faces of a cut lie within this of one direction, and are at least this part of the surface.
-const CUT_COSINE: f64 = 0.9986;
-const CUT_PART: f64 = 0.015;
 /// The bow opens where its outline's middle is at least this far from its surface's, of its radius.
 const OPEN_PART: f64 = 0.03;
 
-/// The direction in which a femoral component opens: from the middle of its surface to the middle of its outline in the
-/// side view, and, where a flat cut faces nearly that way, its normal.
+/// The direction in which a femoral component opens, the normal of its distal cut, on the side to which the middle of its outline in
+/// the side view lies from that of its surface.
 fn opening(mesh: &Mesh<'_>, across: &Vector3) -> Option<Vector3> {
+    let out = outwards(mesh, across)?;
+    above_the_distal_cut(mesh, across, &out)
+}
+
+/// From the middle of the surface to that of the outline in the side view, mm; `None` where they are one.
+fn outwards(mesh: &Mesh<'_>, across: &Vector3) -> Option<Vector3> {
     let first = super::perpendicular(across);
     let second = cross(across, &first);
-    let direction = |turn: f64| between(&first, &second, turn);
     let mut outline = [0.0; 3];
     for step in 0..AROUND {
-        let along = direction(core::f64::consts::TAU * step as f64 / AROUND as f64);
+        let turn = core::f64::consts::TAU * step as f64 / AROUND as f64;
+        let along = between(&first, &second, turn);
         let far = |a: &Vector3, b: &Vector3| dot(a, &along).total_cmp(&dot(b, &along));
         outline = add(&outline, &vertices(mesh).max_by(far)?);
     }
@@ -96,21 +98,7 @@ fn opening(mesh: &Mesh<'_>, across: &Vector3) -> Option<Vector3> {
     });
     let out = subtract(&outline, &scale(&sum, 1.0 / area));
     let out = subtract(&out, &scale(across, dot(&out, across)));
-    if norm(&out) < OPEN_PART * mesh.bounds().radius {
-        return None;
-    }
-    let out = scale(&out, 1.0 / norm(&out));
-    Some(cut_facing(mesh, &out, across, area).unwrap_or(out))
-}
-
-/// The direction near `out` that most of the surface faces, where enough does.
-fn cut_facing(mesh: &Mesh<'_>, out: &Vector3, across: &Vector3, area: f64) -> Option<Vector3> {
-    let aside = cross(across, out);
-    let steps = CUT_WITHIN_DEG as i32;
-    let directions = (-steps..=steps).map(|step| between(out, &aside, radians(f64::from(step))));
-    let best = directions.map(|along| facing(mesh, &along, CUT_COSINE));
-    let (sum, most) = best.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    (most > CUT_PART * area).then(|| scale(&sum, 1.0 / norm(&sum)))
+    (norm(&out) >= OPEN_PART * mesh.bounds().radius).then_some(out)
 }
 
 /// A tray's axis so directed that its plate, which faces along it, is above the middle; `None` where nothing hangs from it that tells.
@@ -131,15 +119,6 @@ fn above_the_keel(mesh: &Mesh<'_>, axis: &Vector3) -> Option<Vector3> {
     };
     let (up, is_known) = directed(axis, above, high - low);
     is_known.then_some(up)
-}
-
-/// How far points reach along an axis.
-fn reach(points: impl Iterator<Item = Vector3>, axis: &Vector3) -> (f64, f64) {
-    points
-        .map(|point| dot(&point, axis))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        })
 }
 
 /// Of two sides one is told from the other where they differ by more than this part of their size.
