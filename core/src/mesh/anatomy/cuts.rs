@@ -14,8 +14,10 @@ use crate::mesh::surface::Mesh;
 
 /// Directions round the side view that are tried, 2 degrees apart.
 const AROUND: usize = 180;
-/// Faces of a cut lie within 3 degrees of one direction: the cosine.
+/// Faces of a cut lie within 3 degrees of one direction in the side view: the cosine.
 const FLAT: f64 = 0.9986;
+/// They are along the way across within 8 degrees, of which the cosine: a stem that leans aside turns a plane of symmetry by 5.
+const EDGEWAYS: f64 = 0.990_268_068_741_570_3;
 /// A floor lies in the lowest part of a bow, of its depth, and walls reach out of this lowest part of it.
 const FLOOR: f64 = 0.35;
 const FOOT: f64 = 0.15;
@@ -91,13 +93,16 @@ impl Seat {
             let height = (dot(&middle, up) - low) / depth;
             let along = (dot(&middle, &forward) - back) / depth;
             let (lies, stands) = (dot(&normal, up), dot(&normal, &forward));
-            if lies.abs() > FLAT * area && height < FLOOR {
+            let seen = norm(&[lies, stands, 0.0]);
+            if seen < EDGEWAYS * area {
+                continue;
+            }
+            if lies.abs() > FLAT * seen && height < FLOOR {
                 seat.floor += area;
                 seat.normal = add(&seat.normal, &scale(&normal, lies.signum()));
-            } else if stands.abs() > LEAN * area && height > FOOT {
-                let is_along = lies * lies + stands * stands > FLAT * FLAT * area * area;
+            } else if stands.abs() > LEAN * seen && height > FOOT {
                 let ends = [along < END, along > 1.0 - END];
-                let end = ends.iter().position(|is_at| *is_at && is_along);
+                let end = ends.iter().position(|is_at| *is_at);
                 if let Some(wall) = end.map(|end| &mut seat.walls[end]) {
                     let lean = degrees(atan2(lies * stands.signum(), stands.abs()));
                     wall[((lean + LEAN_DEG) as usize).min(LEANS - 1)] += area;
