@@ -18,9 +18,10 @@ const AROUND: usize = 180;
 const FLAT: f64 = 0.9986;
 /// They are along the way across within 8 degrees, of which the cosine: a stem that leans aside turns a plane of symmetry by 5.
 const EDGEWAYS: f64 = 0.990_268_068_741_570_3;
-/// A floor lies in the lowest part of a bow, of its depth, and walls reach out of this lowest part of it.
+/// A floor lies in the lowest part of a bow, of its depth.
 const FLOOR: f64 = 0.35;
-const FOOT: f64 = 0.15;
+/// Walls stand on the floor, between these parts of the depth: were backwards up, the tips of the condyles would be high over the flange.
+const STANDING: core::ops::Range<f64> = 0.15..0.75;
 /// Walls stand within this part of the depth from either end.
 const END: f64 = 0.25;
 /// They lean by up to 12 degrees; windows of 6 degrees as wide as what is flat end at 15, of which the cosine.
@@ -100,7 +101,7 @@ impl Seat {
             if lies.abs() > FLAT * seen && height < FLOOR {
                 seat.floor += area;
                 seat.normal = add(&seat.normal, &scale(&normal, lies.signum()));
-            } else if stands.abs() > LEAN * seen && height > FOOT {
+            } else if stands.abs() > LEAN * seen && STANDING.contains(&height) {
                 let ends = [along < END, along > 1.0 - END];
                 let end = ends.iter().position(|is_at| *is_at);
                 if let Some(wall) = end.map(|end| &mut seat.walls[end]) {
