@@ -6,6 +6,8 @@
 
 mod cuts;
 mod faced;
+#[cfg(test)]
+mod fake;
 mod kind;
 mod signs;
 mod words;

@@ -46,7 +46,11 @@ pub fn anatomical_axes(
         return None;
     }
     let (forward, front_is_known) = match component {
-        KneeComponent::Femur => along_the_longer_arm(mesh, &forward, &up),
+        KneeComponent::Femur => {
+            let (forward, is_longer) = along_the_longer_arm(mesh, &forward, &up);
+            let is_notched = is_notched_ahead(mesh, &forward, &across, &up);
+            (forward, is_longer && !is_notched)
+        }
         KneeComponent::Tibia => away_from_the_notch(mesh, &forward, &across, &up),
     };
     let right = cross(&forward, &up);
@@ -150,6 +154,24 @@ fn along_the_longer_arm(mesh: &Mesh<'_>, forward: &Vector3, up: &Vector3) -> (Ve
     let [ahead, behind] = arms(0.0);
     let (forward, is_known) = directed(forward, ahead - behind, high - low);
     (forward, is_known && high - low <= TALL * depth)
+}
+
+/// Whether a bow is open in the middle of its width in front and not behind, as between condyles: its longer arm is no flange then.
+fn is_notched_ahead(mesh: &Mesh<'_>, forward: &Vector3, across: &Vector3, up: &Vector3) -> bool {
+    /// Of the width, to either side of its middle.
+    const MIDDLE: f64 = 0.05;
+    let (back, front) = reach(vertices(mesh), forward);
+    let (left, right) = reach(vertices(mesh), across);
+    let (low, high) = reach(vertices(mesh), up);
+    let (middle, half) = ((left + right) / 2.0, MIDDLE * (right - left));
+    let right_of = (*across, middle - half);
+    let left_of = (scale(across, -1.0), -middle - half);
+    let arm = |sign: f64| {
+        let from = sign * (back + front) / 2.0 + (0.5 - ARM_PART) * (front - back);
+        let halves = [(scale(forward, sign), from), right_of, left_of];
+        reach_within(mesh, &halves, up).1
+    };
+    arm(-1.0) - arm(1.0) > TOLD_PART * (high - low)
 }
 
 /// The direction in which a tray's border is not notched, and whether it is notched on one side alone.

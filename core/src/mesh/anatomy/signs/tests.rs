@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::math::apply;
-use crate::mesh::anatomy::{component_by_shape, field_axes};
+use crate::mesh::anatomy::fake::{Design, Parts, designs};
+use crate::mesh::anatomy::{OWN_AXIS_DEG, component_by_shape, field_axes};
 use crate::mesh::edges::fake::{add_box, add_prism, ellipse, placed_within};
 use crate::mesh::symmetry::symmetry_planes;
-use crate::pose::EulerPose;
+use crate::pose::{EulerPose, geodesic_deg};
 use proptest::prelude::*;
 use std::vec::Vec;
 
@@ -282,6 +283,70 @@ properties! {
         prop_assert!(found.is_some_and(|found| off(&found, &up) < 1e-4), "{:?}", found);
         let closed = Part::of(&[([-20.0, 0.0, -30.0], [20.0, 40.0, 30.0])]).at(&pose);
         prop_assert_eq!(opening(&closed.mesh(), &right), None);
+    }
+}
+
+/// A design as a file may hold it: turned, of a right or a left knee, in metres, and with its triangles either way round.
+fn filed(design: &Design, pose: &Pose, [is_left, is_turned]: [bool; 2], size: f32) -> Part {
+    let Parts {
+        mut vertices,
+        mut triangles,
+    } = design.parts();
+    if is_left {
+        vertices
+            .iter_mut()
+            .for_each(|vertex| vertex[2] = -vertex[2]);
+    }
+    if is_turned {
+        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
+    let mut part = Part {
+        vertices,
+        triangles,
+    }
+    .at(pose);
+    part.vertices.iter_mut().flatten().for_each(|x| *x *= size);
+    part
+}
+
+/// How far the told axes are off those of a pose, degrees. Those near the file's own are those, so that it is asked of the shape's.
+fn off_deg(found: &AnatomicalAxes, pose: &Pose) -> f64 {
+    geodesic_deg(&found.model_from_field.rotation, &pose.rotation)
+}
+
+properties! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// With a box and without one, when a chamfer lies as near as the distal cut to where the bow opens as its surface is spread.
+    #[test]
+    fn components_for_both_condyles_tell_their_axes(
+        design in designs(), pose in placed_within(80.0), kind in any::<[bool; 2]>(), size in prop_oneof![Just(1.0f32), Just(1e-3)],
+    ) {
+        let part = filed(&design, &pose, kind, size);
+        let found = part.axes(KneeComponent::Femur);
+        prop_assert!(found.is_some_and(|found| found.front_is_known), "{:?}", found);
+        let off = found.map(|found| off_deg(&found, &pose));
+        let limit = if found.is_some_and(|found| found.are_files_own) { OWN_AXIS_DEG + 3.0 } else { 3.0 };
+        prop_assert!(off < Some(limit), "{:?}", off);
+    }
+
+    /// Where a design is no usual one, axes are right or are not told.
+    #[test]
+    fn of_uncommon_components_axes_are_right_or_not_told(
+        design in designs(), radius in 30.0..60.0f64, flange in 30.0..60.0f64, gap in 12.0..26.0f64, stem in prop_oneof![Just(0.0), 20.0..140.0f64],
+        pose in placed_within(80.0), kind in any::<[bool; 2]>(),
+    ) {
+        let radii = [design.radii[0], radius, design.radii[2]];
+        let design = Design { radii, flange, gap, stem, ..design };
+        let part = filed(&design, &pose, kind, 1.0);
+        if let Some(found) = part.axes(KneeComponent::Femur) {
+            let about = Pose::from(EulerPose { y_rot_deg: 180.0, ..EulerPose::default() });
+            let off = off_deg(&found, &pose);
+            let turned = off_deg(&found, &pose.compose(&about));
+            let off = if found.front_is_known { off } else { off.min(turned) };
+            let limit = if found.are_files_own { OWN_AXIS_DEG + 5.0 } else { 5.0 };
+            prop_assert!(off < limit, "{}: {:?}", off, found);
+        }
     }
 }
 
