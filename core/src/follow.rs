@@ -13,11 +13,13 @@
 //! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for; before it, [`FilmReading`] reads
 //! what the constants of the film are estimated from.
 //!
-//! Where nobody points at a component [`SearchPlan`] says in which order it is looked for, and by which search, until it is found.
+//! Where nobody points at a component [`SearchPlan`] says in which order it is looked for, and by which search, until it is found;
+//! [`click_leads`], whether what somebody pointed at leads on beside that.
 //!
 //! Nothing here knows files, threads or time: whoever calls gives frames one by one, in the order that he likes.
 
 mod cell;
+mod click_leads;
 #[cfg(feature = "alloc")]
 mod conclude;
 mod conclusion;
@@ -75,6 +77,7 @@ mod valley;
 mod way;
 
 pub use cell::{Anchor, Cell};
+pub use click_leads::{AtClick, click_leads, leads_by_itself};
 #[cfg(feature = "alloc")]
 pub use conclude::{KnownBeside, conclude, trusted_middles};
 pub use conclusion::{Conclusion, Why, fill_gaps};

@@ -174,6 +174,15 @@ impl Calibration {
         Vec::from([one])
     }
 
+    /// Whether anything is filmed so far from the focus, mm: nearer than the detector, where the file states how far that is, and farther than a
+    /// tube's housing and what is kept between it and the skin, some 200 mm where a metre is usual.
+    #[must_use]
+    pub fn may_hold(&self, distance: f64) -> bool {
+        const NEAREST: f64 = 0.2;
+        let is_before = self.principal_distance().is_none_or(|all| distance < all);
+        is_before && distance > NEAREST * self.expected_distance()
+    }
+
     /// Distance from focus to detector in mm, where the file states it.
     #[must_use]
     pub fn principal_distance(&self) -> Option<f64> {

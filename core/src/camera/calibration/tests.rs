@@ -130,6 +130,17 @@ fn a_part_at_a_distance_that_nobody_tells_is_looked_for_from_two() {
 }
 
 #[test]
+fn nothing_is_filmed_behind_the_detector_or_within_the_tube() {
+    let stated = Calibration::parse("JT_INTCALIB\n1200\n0\n0\n0.3\n").expect("valid");
+    assert!(stated.may_hold(1199.0) && !stated.may_hold(1201.0));
+    assert!(stated.may_hold(217.0) && !stated.may_hold(215.0));
+    assert!(!stated.may_hold(-900.0) && !stated.may_hold(f64::NAN));
+    // Where the detector is, a matrix of a camera does not say.
+    let matrix = Calibration::parse(MATRIX).expect("valid");
+    assert!(matrix.may_hold(5000.0) && !matrix.may_hold(199.0));
+}
+
+#[test]
 fn a_camera_matrix_counts_from_pixel_centres() {
     let calibration = Calibration::parse(MATRIX).expect("valid");
     let camera = calibration.camera(1024, 768).expect("the file's own size");

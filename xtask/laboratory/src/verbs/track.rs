@@ -1,6 +1,7 @@
 //! Verb `track`: both components followed through a film on its grey frames.
 
 mod anchors;
+mod clicks;
 mod constants;
 mod film;
 mod follow;
@@ -40,7 +41,7 @@ pub use table::Row;
 #[derive(clap::Args)]
 #[command(
     after_help = format!("Poses that are known in some frames are followed to both ends of the film on its grey frames: those of --fixed, which \
-never change, and those that a click leads to. A component without either is looked for in whole frames.\n\n\
+never change, and those that a click leads to. A component without either is looked for in whole frames, and one whose clicks do not convince too: what is better leads, which is told.\n\n\
 Frames stand in the order of their files' names, numbers by their value: f2 before f10. Files that are damaged are told before anything is looked for.\n\n\
 Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv, COMPONENT.covariances.csv, film.csv (the constants of the \
 film, in pixels of the file, and square_px: the side of the squares of pixels that it is read in, 1 unless pixels are much finer than the blur), found_with.csv (digests of \

@@ -1,9 +1,12 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, FramePose, Places, RunsToSearch, set_aside, settled};
+use fluoropose::follow::{
+    Anchor, Cell, FramePose, Places, RunsToSearch, leads_by_itself, set_aside, settled,
+};
 use fluoropose::pose::Pose;
 
+use super::clicks::Doubtful;
 use super::follow::{follow, mark};
 use super::part::Part;
 use super::request::{Click, Told};
@@ -26,14 +29,14 @@ pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Vec<(usize, Pose)> 
     fixed_poses
 }
 
-/// The frames that a person gave: fixed poses, and what clicks lead to, each with what is known of other components in its frame. In the
-/// order of frames.
+/// The frames that a person gave: fixed poses, and what clicks lead to, each with what is known of other components in its frame, in the
+/// order of frames; and the clicks whose poses do not convince.
 pub(super) fn given(
     run: &Run<'_>,
     part: &Part<'_>,
     others: &[(&Part<'_>, &[Anchor])],
-) -> Result<Vec<Anchor>> {
-    let mut anchors = Vec::new();
+) -> Result<(Vec<Anchor>, Vec<Doubtful>)> {
+    let (mut anchors, mut doubtful) = (Vec::new(), Vec::new());
     for (frame, pose) in fixed_poses(run, part) {
         anchors.push(of_person(run, part, frame, &pose)?);
     }
@@ -51,27 +54,20 @@ pub(super) fn given(
             (run.request.listener)(Told::Remark(told));
             continue;
         }
-        let beside = beside(others, click.frame);
+        let beside = Beside::in_frame(click.frame, others);
         match clicked(run, part, click.frame, click.place, beside)? {
-            Some(found) => anchors.push(Anchor::found(click.frame, found)),
+            Some(found) if leads_by_itself(&found) => {
+                anchors.push(Anchor::found(click.frame, found));
+            }
+            Some(found) => doubtful.push(Doubtful {
+                click: click.clone(),
+                found,
+            }),
             None => tell_vain(run, click)?,
         }
     }
     anchors.sort_by_key(|anchor| anchor.frame);
-    Ok(anchors)
-}
-
-/// A component that is known in a frame.
-fn beside<'b, 's>(others: &[(&'b Part<'s>, &'b [Anchor])], frame: usize) -> Option<Beside<'b, 's>> {
-    let mut known = others
-        .iter()
-        .flat_map(|&(part, own)| own.iter().map(move |from| (part, from)));
-    let (part, from) = known.find(|(_, from)| from.frame == frame)?;
-    Some(Beside {
-        part,
-        from,
-        pose: from.found.pose,
-    })
+    Ok((anchors, doubtful))
 }
 
 /// Tells of a click that leads to no pose. Results that are there already are better than what is found without it.

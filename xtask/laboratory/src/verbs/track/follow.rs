@@ -1,7 +1,9 @@
 //! A component followed from anchors, frames whose pose is known, over the frames between and beside them.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, Cell, Ends, FAR, Looked, Way, have_met, join_ways, look};
+use fluoropose::follow::{
+    Anchor, Cell, Ends, FAR, FramePose, Looked, Way, have_met, join_ways, look,
+};
 use sha2::{Digest, Sha256};
 
 use super::part::Part;
@@ -79,6 +81,20 @@ pub(super) fn ends_beside(run: &Run<'_>, part: &Part<'_>, anchor: &Anchor) -> Re
         walk.looked.iter().rev().find_map(found)
     };
     Ok([end(before?), end(after?)])
+}
+
+/// What following from an anchor comes to in a frame; `None` where the component is lost on the way there.
+pub(super) fn followed_to(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    from: &Anchor,
+    frame: usize,
+) -> Result<Option<FramePose>> {
+    if frame == from.frame {
+        return Ok(Some(from.found));
+    }
+    let walk = way(run, part, from, frame)?;
+    Ok(walk.at(frame).and_then(|looked| looked.found.ok()))
 }
 
 fn way<'w, 's>(

@@ -8,6 +8,7 @@ use fluoropose::follow::{
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 
 use super::anchors::{fixed_poses, given};
+use super::clicks::{Doubtful, Outcome};
 use super::follow::ends_beside;
 use super::part::Part;
 use super::run::Run;
@@ -32,8 +33,19 @@ pub(super) fn begun<'s>(
     if told.is_none() {
         ways.push(Way::begin(run, parts(Polarity::BrightImplant))?);
     }
+    let (mut way, mut is_given_up) = search(run, ways)?;
+    if way.settle_clicks(run)? {
+        // What a click leads to after all leads to others.
+        (way, is_given_up) = search(run, vec![way])?;
+    }
+    way.tell_missing(run, is_given_up);
+    Ok((way.parts, way.anchors))
+}
+
+/// Looks for what is missing in each way of showing metal; the way that counts, and whether what is missing in it was given up.
+fn search<'s>(run: &Run<'_>, mut ways: Vec<Way<'s>>) -> Result<(Way<'s>, bool)> {
     let mut sought: Vec<Sought> = ways.iter().flat_map(Way::sought).collect();
-    let mut plan = SearchPlan::new(run.film.count(), told.is_some());
+    let mut plan = SearchPlan::new(run.film.count(), ways.len() == 1);
     let each = sought.len() / ways.len();
     loop {
         let step = plan.next(&mut sought);
@@ -53,15 +65,18 @@ pub(super) fn begun<'s>(
             }
         }
     }
-    let way = ways.swap_remove(plan.way().unwrap_or(0));
-    way.tell_missing(run, plan.is_given_up());
-    Ok((way.parts, way.anchors))
+    Ok((
+        ways.swap_remove(plan.way().unwrap_or(0)),
+        plan.is_given_up(),
+    ))
 }
 
 /// All components of a film that shows metal in one way.
 struct Way<'s> {
     parts: Vec<Part<'s>>,
     anchors: Vec<Vec<Anchor>>,
+    /// Of each component the clicks whose poses do not convince.
+    doubtful: Vec<Vec<Doubtful>>,
     /// What searches led to.
     found: Vec<(SearchStep, FramePose)>,
 }
@@ -73,8 +88,9 @@ impl<'s> Way<'s> {
             .iter()
             .partition(|part| part.role() == Some(Role::Tibia));
         let mut anchors = vec![Vec::new(); parts.len()];
+        let mut doubtful = vec![Vec::new(); parts.len()];
         for part in others.iter().copied() {
-            anchors[part.number] = given(run, part, &[])?;
+            (anchors[part.number], doubtful[part.number]) = given(run, part, &[])?;
         }
         // A tray stands out less than its femur, which tells where it is.
         for part in trays {
@@ -82,13 +98,53 @@ impl<'s> Way<'s> {
                 .iter()
                 .map(|other| (*other, &*anchors[other.number]))
                 .collect();
-            anchors[part.number] = given(run, part, &known)?;
+            (anchors[part.number], doubtful[part.number]) = given(run, part, &known)?;
         }
-        Ok(Self {
+        let mut way = Self {
             parts,
             anchors,
+            doubtful,
             found: Vec::new(),
-        })
+        };
+        way.click_beside(run)?;
+        Ok(way)
+    }
+
+    /// Clicks whose poses do not convince once more, beside what is known in their frames.
+    fn click_beside(&mut self, run: &Run<'_>) -> Result<()> {
+        for (number, part) in self.parts.iter().enumerate() {
+            for one in std::mem::take(&mut self.doubtful[number]) {
+                let all = self.parts.iter().zip(&self.anchors);
+                let others = all.filter(|(other, _)| other.number != number);
+                let others: Vec<_> = others.map(|(part, own)| (part, &**own)).collect();
+                let again = one.again(run, part, &others)?;
+                match again.convinces() {
+                    true => know(&mut self.anchors[number], again.anchor()),
+                    false => self.doubtful[number].push(again),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares clicks whose poses do not convince, the best first, with what was found without them. Returns whether one of them leads
+    /// where nothing else did.
+    fn settle_clicks(&mut self, run: &Run<'_>) -> Result<bool> {
+        self.click_beside(run)?;
+        let mut leads = false;
+        for (number, part) in self.parts.iter().enumerate() {
+            let mut doubtful = std::mem::take(&mut self.doubtful[number]);
+            doubtful.sort_by(|a, b| b.found.score().total_cmp(&a.found.score()));
+            for one in doubtful {
+                let anchors = &mut self.anchors[number];
+                if let Outcome::Leads = one.against(run, part, anchors)? {
+                    anchors.retain(|anchor| !is_of(&self.found, (number, anchor)));
+                    leads |= anchors.is_empty();
+                    know(anchors, one.anchor());
+                }
+            }
+        }
+        Ok(leads)
     }
 
     /// The components as the order of work knows them.
@@ -176,6 +232,20 @@ impl<'s> Way<'s> {
             ));
         }
     }
+}
+
+/// Adds a frame that a component is followed from to those that are known.
+fn know(anchors: &mut Vec<Anchor>, anchor: Anchor) {
+    anchors.push(anchor);
+    anchors.sort_by_key(|anchor| anchor.frame);
+}
+
+/// Whether a search led to a frame of a component.
+fn is_of(found: &[(SearchStep, FramePose)], (part, anchor): (usize, &Anchor)) -> bool {
+    let is_it = |(step, found): &(SearchStep, FramePose)| {
+        (step.part, step.frame) == (part, anchor.frame) && *found == anchor.found
+    };
+    found.iter().any(is_it)
 }
 
 /// How the film shows metal, by clicks and fixed poses.

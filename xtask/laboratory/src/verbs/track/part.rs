@@ -209,6 +209,11 @@ impl<'s> Part<'s> {
         -pose.transform(&self.middle())[2]
     }
 
+    /// Whether the component can be where a pose has it: before the detector, and not within the tube.
+    pub(super) fn may_be_at(&self, pose: &Pose) -> bool {
+        self.calibration.may_hold(self.depth_of(pose))
+    }
+
     pub(super) fn model(&self) -> Model<'s> {
         self.model.as_model()
     }

@@ -69,6 +69,21 @@ pub(super) struct Beside<'b, 's> {
     pub(super) pose: Pose,
 }
 
+impl<'b, 's> Beside<'b, 's> {
+    /// The first of other components that is known in a frame.
+    pub(super) fn in_frame(frame: usize, others: &[(&'b Part<'s>, &'b [Anchor])]) -> Option<Self> {
+        let mut known = others
+            .iter()
+            .flat_map(|&(part, own)| own.iter().map(move |from| (part, from)));
+        let (part, from) = known.find(|(_, from)| from.frame == frame)?;
+        Some(Self {
+            part,
+            from,
+            pose: from.found.pose,
+        })
+    }
+}
+
 impl Beside<'_, '_> {
     /// What a step that goes by it is called after.
     fn key(&self) -> String {
@@ -143,7 +158,7 @@ pub(super) fn searched(
                     let told = search_told(run, part, frame);
                     clicker.search(subject, image, (places, middle), told)
                 })??;
-            if let Some(found) = found {
+            if let Some(found) = found.filter(|found| part.may_be_at(&found.pose.pose)) {
                 return Ok(Some(found.pose));
             }
         }
@@ -174,7 +189,8 @@ pub(super) fn in_joint(
             while search.step(subject, image, memory) {
                 stop.check()?;
             }
-            Ok(search.found().copied())
+            let possible = |found: &&FramePose| part.may_be_at(&found.pose);
+            Ok(search.found().filter(possible).copied())
         })?
     })
 }
@@ -226,9 +242,11 @@ fn best(
         unknown.as_ref(),
         |subject, image, memory| {
             let mut best: Option<FramePose> = None;
-            for answer in answers.iter().take(ANSWERS) {
+            let possible = |answer: &&Answer| part.may_be_at(&answer.refined.pose);
+            for answer in answers.iter().filter(possible).take(ANSWERS) {
                 let start = (&answer.refined.pose, From::Far);
-                let Ok(found) = refined_on_frame(subject, image, start, memory) else {
+                let found = refined_on_frame(subject, image, start, memory);
+                let Some(found) = found.ok().filter(|found| part.may_be_at(&found.pose)) else {
                     continue;
                 };
                 if best.is_none_or(|best| found.score() > best.score()) {
