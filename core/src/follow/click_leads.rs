@@ -7,7 +7,7 @@
 use super::frame_pose::FramePose;
 
 /// What is asked of a click's pose that leads by itself, as of one that a joint leaves: its score ([`FramePose::score`]), and the part of its
-/// outline that is met. Right ones of sharp films have 0.43 to 0.82, wrong ones at most 0.32; in a film that is finer than its blur right
+/// outline that is met. Right ones of sharp films have 0.43 to 0.82, wrong ones at most 0.33; in a film that is finer than its blur right
 /// ones have less too, which costs a search and no more.
 const SCORE: f64 = 0.38;
 const MET: f64 = 0.7;
