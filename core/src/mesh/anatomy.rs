@@ -39,13 +39,39 @@ const AS_SYMMETRIC: f64 = 3.0;
 /// [`crate::mesh::symmetry::symmetry_planes`]. `None` where there are none.
 #[must_use]
 pub fn mediolateral_axis(mesh: &Mesh<'_>, planes: &[SymmetryPlane]) -> Option<Vector3> {
-    let best = planes.first()?.deviation_mm;
-    // A plane of a mesh that is symmetric by making deviates by rounding alone.
-    let limit = AS_SYMMETRIC * best.max(1e-3 * mesh.bounds().radius);
-    let alike = planes.iter().filter(|plane| plane.deviation_mm <= limit);
+    let alike = as_symmetric(mesh, planes);
     let widest = alike.max_by(|a, b| width(mesh, &a.normal).total_cmp(&width(mesh, &b.normal)));
     Some(upright(widest?.normal))
 }
+
+/// The planes about which a component is as nearly symmetric as about the best.
+fn as_symmetric<'p>(
+    mesh: &Mesh<'_>,
+    planes: &'p [SymmetryPlane],
+) -> impl Iterator<Item = &'p SymmetryPlane> {
+    let best = planes.first().map_or(0.0, |plane| plane.deviation_mm);
+    // A plane of a mesh that is symmetric by making deviates by rounding alone.
+    let limit = AS_SYMMETRIC * best.max(1e-3 * mesh.bounds().radius);
+    planes
+        .iter()
+        .filter(move |plane| plane.deviation_mm <= limit)
+}
+
+/// Across planes that are alike a component is told apart where it is narrower than this part of what it is across the widest.
+const AS_WIDE: f64 = 0.9;
+
+/// Whether a component is as symmetric about another plane than that across, and about as wide across it: where bows on long stems are as deep
+/// as wide, that is the one from front to back.
+fn is_as_wide_elsewhere(mesh: &Mesh<'_>, planes: &[SymmetryPlane], across: &Vector3) -> bool {
+    let others =
+        as_symmetric(mesh, planes).filter(|plane| dot(&plane.normal, across).abs() < ANOTHER);
+    let least = AS_WIDE * width(mesh, across);
+    let mut widths = others.map(|plane| width(mesh, &plane.normal));
+    widths.any(|width| width > least)
+}
+
+/// Planes are two where their normals are 30 degrees apart: the cosine.
+const ANOTHER: f64 = 0.866;
 
 /// The normal of a tray's plate, perpendicular to `mediolateral`, model coordinates: the direction that most of its surface
 /// faces, forwards or backwards, by area; a stem, which faces all round, does not turn it. `None` of a mesh without area.
@@ -284,6 +310,29 @@ mod tests {
             prop_assert_eq!(reach(&mesh, &crate::math::IDENTITY[widest]), (0.0, f64::from(sides[widest])));
             prop_assert_eq!(mediolateral_axis(&mesh, &[]), None);
         }
+    }
+
+    /// Across planes that differ, and about which it is as symmetric.
+    #[test]
+    fn where_a_part_is_as_wide_both_ways_across_is_one_of_two() {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        add_box([0.0; 3], [60.0, 99.0, 66.0], &mut vertices, &mut triangles);
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let plane = |normal: Vector3, deviation_mm: f64| SymmetryPlane {
+            point: [0.0; 3],
+            normal,
+            deviation_mm,
+        };
+        let [x, _, z] = crate::math::IDENTITY;
+        let best = plane(z, 0.1);
+        let oblique = plane([0.3, 0.0, 0.95], 0.1);
+        let told = |other: SymmetryPlane| is_as_wide_elsewhere(&mesh, &[best, other], &z);
+        assert!(told(plane(x, 0.2)));
+        assert!(!told(plane(x, 0.7)));
+        assert!(!told(oblique));
+        let narrow: Vec<_> = vertices.iter().map(|&[x, y, z]| [0.95 * x, y, z]).collect();
+        let mesh = Mesh::new(&narrow, &triangles).expect("valid");
+        assert!(!is_as_wide_elsewhere(&mesh, &[best, plane(x, 0.2)], &z));
     }
 
     /// Along x and z.

@@ -128,3 +128,52 @@ impl Seat {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::apply;
+    use crate::mesh::edges::fake::{add_box, placed_within};
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Boxes that run 60 mm across, z, between two corners of the side view, at a pose.
+    fn told(
+        sides: &[([f32; 2], [f32; 2])],
+        pose: &crate::pose::Pose,
+        out: Vector3,
+    ) -> Option<Vector3> {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for &([x, y], [front, top]) in sides {
+            let (low, high) = ([x, y, -30.0], [front, top, 30.0]);
+            add_box(low, high, &mut vertices, &mut triangles);
+        }
+        for vertex in &mut vertices {
+            *vertex = pose.transform(&vertex.map(f64::from)).map(|x| x as f32);
+        }
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let [across, out] = [[0.0, 0.0, 1.0], out].map(|axis| apply(&pose.rotation, &axis));
+        above_the_distal_cut(&mesh, &across, &out)
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Not where it has one, nor where another side lies between two as well.
+        #[test]
+        fn a_floor_is_told_between_two_walls_alone(pose in placed_within(80.0), lean in -0.9..0.9f64) {
+            const FLOOR: ([f32; 2], [f32; 2]) = ([-25.0, 0.0], [25.0, 4.0]);
+            const BEHIND: ([f32; 2], [f32; 2]) = ([-25.0, 4.0], [-21.0, 36.0]);
+            const AHEAD: ([f32; 2], [f32; 2]) = ([21.0, 4.0], [25.0, 46.0]);
+            let up = apply(&pose.rotation, &[0.0, 1.0, 0.0]);
+            // Wherever within a quarter turn of it the surface is spread.
+            let out = [lean, 1.0, 0.0];
+            let found = told(&[FLOOR, BEHIND, AHEAD], &pose, out);
+            prop_assert!(found.is_some_and(|found| norm(&subtract(&found, &up)) < 1e-4), "{:?}", found);
+            prop_assert_eq!(told(&[FLOOR, BEHIND], &pose, out), None);
+            // A tube, of which two sides lie on the way out.
+            let tube = [([-25.0, 0.0], [25.0, 4.0]), ([-25.0, 46.0], [25.0, 50.0]), ([-25.0, 4.0], [-21.0, 46.0]), ([21.0, 4.0], [25.0, 46.0])];
+            prop_assert_eq!(told(&tube, &pose, [1.0, 1.0, 0.0]), None);
+        }
+    }
+}

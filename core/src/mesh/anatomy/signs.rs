@@ -5,7 +5,10 @@
 
 use super::cuts::above_the_distal_cut;
 use super::faced::{between, faces, reach, vertices};
-use super::{KneeComponent, is_of_one_condyle, mediolateral_axis, own_axes, superoinferior_axis};
+use super::{
+    KneeComponent, is_as_wide_elsewhere, is_of_one_condyle, mediolateral_axis, own_axes,
+    superoinferior_axis,
+};
 use crate::math::{Vector3, add, cross, dot, norm, scale, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
@@ -37,6 +40,7 @@ pub fn anatomical_axes(
 ) -> Option<AnatomicalAxes> {
     let across = mediolateral_axis(mesh, planes)?;
     let up = match component {
+        KneeComponent::Femur if is_as_wide_elsewhere(mesh, planes, &across) => return None,
         KneeComponent::Femur => opening(mesh, &across)?,
         KneeComponent::Tibia => above_the_keel(mesh, &superoinferior_axis(mesh, &across)?)?,
     };

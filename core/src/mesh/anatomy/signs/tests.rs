@@ -396,6 +396,25 @@ fn components_for_one_condyle_do_not_tell_their_axes() {
     assert!(directions(&bow, KneeComponent::Femur).is_some());
 }
 
+/// A bow that reaches higher in front, but between whose arms there it is open, is the other way round, or no bow.
+#[test]
+fn a_front_that_is_notched_is_not_told() {
+    let halves = |from: f32, to: f32, top: f32| {
+        [(-30.0, -8.0), (8.0, 30.0)].map(|(left, right)| ([from, 0.0, left], [to, top, right]))
+    };
+    let floor = ([-20.0, 0.0, -30.0], [20.0, 6.0, 30.0]);
+    let solid = |from: f32, to: f32, top: f32| ([from, 0.0, -30.0], [to, top, 30.0]);
+    let [one, other] = halves(-20.0, -14.0, 40.0);
+    let usual = Part::of(&[floor, one, other, solid(14.0, 20.0, 46.0)]);
+    let [one, other] = halves(14.0, 20.0, 46.0);
+    let notched = Part::of(&[floor, one, other, solid(-20.0, -14.0, 40.0)]);
+    for (part, told) in [(usual, true), (notched, false)] {
+        let axes = part.axes(KneeComponent::Femur).expect("a bow");
+        let front = axes.model_from_field.rotation.map(|row| row[0]);
+        assert_eq!((front, axes.front_is_known), ([1.0, 0.0, 0.0], told));
+    }
+}
+
 #[test]
 fn what_is_square_to_an_axis_is_of_length_one_and_nothing_of_the_axis_itself() {
     let axis = [0.6, 0.8, 0.0];
