@@ -2,7 +2,7 @@
 //!
 //! Seen from the side the inside of a component for both condyles is five flats: the distal cut, the anterior and the posterior cut that stand
 //! at its ends and face each other, and a chamfer in each corner, half way round. How its surface is spread does not tell the distal cut
-//! from a chamfer: of a component without a box it leans towards the condyles behind by 30 to 47 degrees, and a chamfer may be as large.
+//! from a chamfer: of a component without a box it leans towards the condyles behind by 36 to 47 degrees, and a chamfer may be as large.
 //! What does is what stands beside it. Of a floor and its two walls a chamfer has the floor alone, an arm that is taken for
 //! the floor has one wall, and nothing has the box's roof. So a direction is worth its floor times the lesser of its two walls: areas over areas, and
 //! lengths over lengths, whatever the file's axes, units and winding are.
