@@ -66,7 +66,8 @@ class Arguments(OnTheDemo):
         self.assertIn("swapped", found.remarks[0])
         self.assertEqual((found.status, found.because), ("doubtful", found.remarks[0].removeprefix("model: ")))
         mask = np.zeros((SIDE, SIDE), bool)
-        with self.assertWarnsRegex(UserWarning, "beside_model: .*swapped"):
+        # A plate has no axes of a femoral component, and that it is one was told before.
+        with self.assertWarnsRegex(UserWarning, "beside_model: .*swapped"), self.assertRaisesRegex(ValueError, "does not tell its axes"):
             fp.estimate(mask, self.tibia, self.camera, role="tibia", beside=np.zeros((1, 6)), beside_model=self.tibia)
         with warnings.catch_warnings():
             warnings.simplefilter("error")

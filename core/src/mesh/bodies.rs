@@ -11,7 +11,7 @@ const SPLINTER: f64 = 20.0;
 
 impl OwnedModel {
     /// Bodies that lie apart, but for splinters; at least one. Those that overlap are one, as pegs and a box are that a design program left as bodies of
-    /// their own: told by how far they reach in [`DIRECTIONS`], so that some that merely lie close around each other are one, too.
+    /// their own: told by how far they reach in thirteen directions, so that some that merely lie close around each other are one, too.
     #[must_use]
     pub fn bodies(&self) -> usize {
         let bodies: Vec<Piece> = self.pieces().filter(|piece| piece.is_body).collect();
