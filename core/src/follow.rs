@@ -77,7 +77,7 @@ mod valley;
 mod way;
 
 pub use cell::{Anchor, Cell};
-pub use click_leads::{AtClick, click_leads, leads_by_itself};
+pub use click_leads::{BesideClick, click_leads, leads_by_itself};
 #[cfg(feature = "alloc")]
 pub use conclude::{KnownBeside, conclude, trusted_middles};
 pub use conclusion::{Conclusion, Why, fill_gaps};

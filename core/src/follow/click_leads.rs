@@ -5,38 +5,38 @@
 //! one frame is followed into all others, and makes the other component of its joint doubtful too.
 
 use super::frame_pose::FramePose;
+use super::joint_search::{MET, TRAY_SCORE};
 
-/// What is asked of a click's pose that leads by itself, as of one that a joint leaves: its score ([`FramePose::score`]), and the part of its
-/// outline that is met. Right ones of sharp films have 0.43 to 0.82, wrong ones at most 0.33; in a film that is finer than its blur right
-/// ones have less too, which costs a search and no more.
-const SCORE: f64 = 0.38;
-const MET: f64 = 0.7;
 /// A pose is as good as another that scores no more than this many times as much: by less, right ones of one film differ from frame to frame.
 const ALIKE: f64 = 1.18;
 
-/// A pose in the frame of a click, and whether what is drawn there holds the place that was pointed at.
+/// What the film finds by itself, to be compared with what a click led to.
 #[derive(Clone, Copy, Debug)]
-pub struct AtClick<'p> {
-    /// The pose.
+pub struct BesideClick<'p> {
+    /// Its pose in the frame of the click, or, where it is lost on the way there, in the nearest frame in which it is known.
     pub found: &'p FramePose,
-    /// Whether it holds the place.
-    pub holds: bool,
+    /// Whether what is drawn in the frame of the click holds the place that was pointed at; `None` where it is lost on the way.
+    pub holds: Option<bool>,
 }
 
-/// Whether what a click led to leads without being compared with anything.
+/// Whether what a click led to leads without being compared with anything: it has what is asked of a tray that its joint leaves. Right clicks of
+/// sharp films scored 0.43 to 0.82, wrong ones at most 0.33; in a film that is finer than its blur right ones have less too, which costs a
+/// search and no more.
 #[must_use]
 pub fn leads_by_itself(clicked: &FramePose) -> bool {
-    clicked.score() >= SCORE && clicked.fit.met >= MET
+    clicked.score() >= TRAY_SCORE && clicked.fit.met >= MET
 }
 
-/// Whether what a click led to leads on, though the film finds the `other` by itself: where it is as good and holds the place that was
-/// pointed at, or the other does not hold it either, and where it is better.
+/// Whether what a click led to leads on, though the film finds the `other` by itself. What does not hold the place that was pointed at is
+/// something else, as another knee is, however well it is seen. Else the better one leads, and of two alike the one that holds the place
+/// (`holds`: of the clicked one).
 #[must_use]
-pub fn click_leads(clicked: AtClick<'_>, other: AtClick<'_>) -> bool {
-    let [own, others] = [clicked, other].map(|one| one.found.score());
-    match (clicked.holds, other.holds) {
-        (true, _) | (false, false) => ALIKE * own >= others,
-        (false, true) => own > ALIKE * others,
+pub fn click_leads(clicked: &FramePose, holds: bool, other: BesideClick<'_>) -> bool {
+    let [own, others] = [clicked, other.found].map(FramePose::score);
+    match other.holds {
+        Some(false) => true,
+        Some(true) if !holds => own > ALIKE * others,
+        _ => ALIKE * own >= others,
     }
 }
 
@@ -53,14 +53,13 @@ mod tests {
         found
     }
 
-    fn leads((own, holds): (f64, bool), (other, other_holds): (f64, bool)) -> bool {
+    fn leads((own, holds): (f64, bool), (other, other_holds): (f64, Option<bool>)) -> bool {
         let [own, other] = [own, other].map(scored);
-        let clicked = AtClick { found: &own, holds };
-        let other = AtClick {
+        let other = BesideClick {
             found: &other,
             holds: other_holds,
         };
-        click_leads(clicked, other)
+        click_leads(&own, holds, other)
     }
 
     #[test]
@@ -75,12 +74,20 @@ mod tests {
     }
 
     #[test]
-    fn what_is_much_better_leads_whatever_was_pointed_at() {
+    fn what_is_much_better_leads_where_it_holds_the_place_or_is_lost_on_the_way() {
         for holds in [true, false] {
-            for other_holds in [true, false] {
+            for other_holds in [Some(true), None] {
                 assert!(!leads((0.2, holds), (0.5, other_holds)));
                 assert!(leads((0.35, holds), (0.2, other_holds)));
             }
+        }
+    }
+
+    /// Of two knees in a picture the one that nobody pointed at may be seen better.
+    #[test]
+    fn what_lies_elsewhere_is_something_else_however_well_it_is_seen() {
+        for holds in [true, false] {
+            assert!(leads((0.2, holds), (0.8, Some(false))));
         }
     }
 
@@ -88,10 +95,11 @@ mod tests {
     #[test]
     fn of_two_alike_the_one_that_holds_the_place_leads() {
         for (own, other) in [(0.30, 0.33), (0.33, 0.30), (0.30, 0.30)] {
-            assert!(leads((own, true), (other, true)));
-            assert!(leads((own, true), (other, false)));
-            assert!(leads((own, false), (other, false)));
-            assert!(!leads((own, false), (other, true)));
+            for other_holds in [Some(true), None] {
+                assert!(leads((own, true), (other, other_holds)));
+            }
+            assert!(leads((own, false), (other, None)));
+            assert!(!leads((own, false), (other, Some(true))));
         }
     }
 }

@@ -10,9 +10,9 @@ use crate::refine::{ImageTarget, RefineMemory};
 
 /// What is asked of a pose: its score ([`FramePose::score`]), the part of its outline that is met, and that is seen. A femur that is
 /// taken for its mirror image meets as much as many a tray beside its femur.
-const TRAY_SCORE: f64 = 0.38;
+pub(super) const TRAY_SCORE: f64 = 0.38;
 const FEMUR_SCORE: f64 = 0.45;
-const MET: f64 = 0.7;
+pub(super) const MET: f64 = 0.7;
 const MOST_PX: f64 = 1.5;
 const KNOWN: f64 = 0.7;
 

@@ -1,7 +1,7 @@
 //! Clicks whose poses do not convince: they are held back until it is known what the film finds without them.
 
 use anyhow::Result;
-use fluoropose::follow::{Anchor, AtClick, FramePose, click_leads, leads_by_itself};
+use fluoropose::follow::{Anchor, BesideClick, FramePose, click_leads, leads_by_itself};
 use fluoropose::pose::geodesic_deg;
 
 use super::follow::followed_to;
@@ -10,7 +10,7 @@ use super::request::{Click, Told};
 use super::run::Run;
 use super::search::{Beside, clicked};
 
-/// Poses nearer to each other than this are one, degrees.
+/// Poses that hold the place and are turned by less than this against each other are one, degrees.
 const SAME_DEG: f64 = 3.0;
 
 /// A click whose pose does not convince.
@@ -72,19 +72,16 @@ impl Doubtful {
             return Ok(Outcome::Leads);
         };
         let there = followed_to(run, part, nearest, frame)?;
-        let holds = |found: &FramePose| self.is_held(part, found);
-        if there.is_some_and(|there| self.is_at(&there)) {
+        let holds = there.as_ref().map(|there| self.is_held(part, there));
+        let holds = holds.transpose()?;
+        if holds == Some(true) && there.is_some_and(|there| self.is_turned_as(&there)) {
             return Ok(Outcome::Same);
         }
-        let other = AtClick {
+        let other = BesideClick {
             found: there.as_ref().unwrap_or(&nearest.found),
-            holds: there.as_ref().map_or(Ok(false), holds)?,
+            holds,
         };
-        let own = AtClick {
-            found: &self.found,
-            holds: holds(&self.found)?,
-        };
-        if click_leads(own, other) {
+        if click_leads(&self.found, self.is_held(part, &self.found)?, other) {
             return Ok(Outcome::Leads);
         }
         let told = format!(
@@ -99,7 +96,7 @@ impl Doubtful {
         Ok(Outcome::Outdone)
     }
 
-    fn is_at(&self, other: &FramePose) -> bool {
+    fn is_turned_as(&self, other: &FramePose) -> bool {
         geodesic_deg(&self.found.pose.rotation, &other.pose.rotation) < SAME_DEG
     }
 
