@@ -47,19 +47,24 @@ const GRADED: usize = 8;
 /// [`DecodeError`] if the file is not an image, is damaged, too large, or holds more than one frame.
 pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
     let file = FrameFile::open(bytes, name)?;
-    let frame = only_frame(&file)?;
+    Ok(mask_alone(&only_frame(&file)?, file.kind()))
+}
+
+fn mask_alone(frame: &GreyFrame, kind: Kind) -> MaskImage {
     let mut values = Values::new();
-    values.see(&frame);
-    Ok(mask_of(&frame, values.rule_in(file.kind())))
+    values.see(frame);
+    mask_of(frame, values.rule_in(kind))
 }
 
 /// All masks of a file, which may hold those of a film. What is inside is decided over all of them: one that shows no implant has small values alone.
 ///
 /// # Errors
-/// Those of [`FrameFile::open`] and [`FrameFile::frame`].
-pub fn decode_masks(bytes: &[u8], name: &str) -> Result<Vec<MaskImage>, DecodeError> {
-    let file = FrameFile::open(bytes, name)?;
-    let rule = mask_rule(&file)?;
+/// Those of [`FrameFile::frame`].
+pub fn decode_masks(file: &FrameFile<'_>) -> Result<Vec<MaskImage>, DecodeError> {
+    if file.count() == 1 {
+        return Ok(vec![mask_alone(&file.frame(0)?, file.kind())]);
+    }
+    let rule = mask_rule(file)?;
     let masks = (0..file.count()).map(|index| Ok(mask_of(&file.frame(index)?, rule)));
     masks.collect()
 }

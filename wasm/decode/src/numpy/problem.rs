@@ -12,6 +12,6 @@ pub(super) fn not_read(detail: String) -> Problem {
     Problem::unsupported(
         FORMAT,
         detail,
-        "Save frames as numbers of shape (rows, columns) or (frames, rows, columns)",
+        "Save frames as numbers of shape (rows, columns) or (frames, rows, columns); numpy.moveaxis(frames, -1, 0) puts the last axis first",
     )
 }

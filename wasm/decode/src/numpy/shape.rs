@@ -23,7 +23,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Rows and columns; frames before them; grey or three or four colours behind them, or one plane between as networks have it.
+    /// Rows and columns; frames before them, and not behind, as other programs have them; grey or three or four colours behind them, or one plane between as networks have it.
     pub(super) fn of(sides: &[usize], is_by_columns: bool) -> Result<Self, Problem> {
         let one = Axis::ONE;
         let [frames, rows, columns, channels] = match *axes(sides, is_by_columns).as_slice() {
@@ -31,7 +31,9 @@ impl Shape {
             [rows, columns, last] if is_channels(last) && !is_channels(columns) => {
                 [one, rows, columns, last]
             }
-            [frames, rows, columns] => [frames, rows, columns, one],
+            [frames, rows, columns] if !is_frames_last(frames, rows, columns) => {
+                [frames, rows, columns, one]
+            }
             [frames, rows, columns, last] if is_channels(last) => [frames, rows, columns, last],
             [frames, plane, rows, columns] if plane.count == 1 => [frames, rows, columns, one],
             _ => {
@@ -68,6 +70,14 @@ impl Shape {
 
 fn is_channels(axis: Axis) -> bool {
     matches!(axis.count, 1 | 3 | 4)
+}
+
+/// Whether the last of three axes seems to be that of the frames: as of square frames, or of such that would else be narrow strips.
+fn is_frames_last(first: Axis, second: Axis, last: Axis) -> bool {
+    const STRIP: usize = 4;
+    let is_strip = |a: Axis, b: Axis| a.count.max(b.count) > STRIP * a.count.min(b.count);
+    let is_square = first.count == second.count && second.count != last.count;
+    is_square || (is_strip(second, last) && !is_strip(first, second))
 }
 
 fn axes(sides: &[usize], is_by_columns: bool) -> Vec<Axis> {
@@ -111,7 +121,10 @@ mod tests {
         assert_eq!(counts(&[20, 30, 3]), Some([1, 20, 30, 3]));
         assert_eq!(counts(&[7, 20, 30, 4]), Some([7, 20, 30, 4]));
         assert_eq!(counts(&[7, 1, 20, 30]), Some([7, 20, 30, 1]));
-        for none in [&[20][..], &[], &[2, 7, 20, 30], &[1, 2, 7, 20, 30]] {
+        assert_eq!(counts(&[30, 30, 30]), Some([30, 30, 30, 1]));
+        let frames_last = [&[30, 30, 7][..], &[512, 512, 600], &[480, 640, 60]];
+        let others = [&[20][..], &[], &[2, 7, 20, 30], &[1, 2, 7, 20, 30]];
+        for none in frames_last.into_iter().chain(others) {
             assert_eq!(counts(none), None, "{none:?}");
         }
     }

@@ -148,11 +148,12 @@ fn a_film_of_masks_has_one_rule() {
         .iter()
         .flat_map(|n| n.to_le_bytes())
         .collect();
-    let masks = decode_masks(&npy("<f4", "False", "(2, 3, 7)", &bytes), "m.npy").unwrap();
-    assert_eq!([masks[0].area(), masks[1].area()], [11, 0]);
+    let masks = |bytes: &[u8], name| decode_masks(&FrameFile::open(bytes, name).unwrap()).unwrap();
+    let film = masks(&npy("<f4", "False", "(2, 3, 7)", &bytes), "m.npy");
+    assert_eq!([film[0].area(), film[1].area()], [11, 0]);
     let alone = png(4, 1, ColorType::Grayscale, BitDepth::Eight, &[0, 1, 2, 255]);
     assert_eq!(
-        decode_masks(&alone, "m.png").unwrap(),
+        masks(&alone, "m.png"),
         [decode_mask(&alone, "m.png").unwrap()]
     );
 }

@@ -86,7 +86,7 @@ pub fn read_masks(path: &Path) -> Result<Vec<(PathBuf, MaskBuffer)>> {
     for index in 0..count {
         check_is_mask(&frames.frame(index)?.pixels, &name(index))?;
     }
-    let images = decode_masks(&bytes, &file)?.into_iter().enumerate();
+    let images = decode_masks(&frames)?.into_iter().enumerate();
     let masks = images.map(|(index, image)| {
         let (width, height) = (image.width as usize, image.height as usize);
         let mask = MaskBuffer::of_pixels(&image.pixels, width, height)?;
