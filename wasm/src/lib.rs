@@ -10,6 +10,7 @@ mod bead_grid;
 mod beside;
 mod camera;
 mod choice;
+mod detour;
 mod exchange;
 #[cfg(test)]
 mod fake;
@@ -26,13 +27,13 @@ mod matcher;
 mod search_plan;
 mod shape;
 mod squares;
-mod way;
 mod working_model;
 
 pub use anatomy::{ShapeAxes, flange_side, model_remarks, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use camera::{calibration_text, camera_doubts, search_distances};
 pub use choice::{Chosen, Surroundings, choose_pose};
+pub use detour::off_the_way;
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use film::{FilmFacts, FilmStudy, stated_film, stated_film_words};
 pub use follower::{FilmFollower, FilmReader, FollowedFilm};
@@ -47,4 +48,3 @@ pub use matcher::{
     OneClickAnswer, ViewPose,
 };
 pub use search_plan::{SearchPlan, SearchStep};
-pub use way::off_the_way;

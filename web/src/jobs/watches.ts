@@ -2,10 +2,10 @@ import type { Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { JointWatch } from './joint_watch';
 import type { Services } from './services';
-import { WayWatch } from './way_watch';
+import { DetourWatch } from './detour_watch';
 
 /** Begins to hold poses against each other. */
 export function watchPoses(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>): void {
   new JointWatch(services, worker);
-  new WayWatch(services.store, worker);
+  new DetourWatch(services.store, worker);
 }

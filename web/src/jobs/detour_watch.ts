@@ -12,7 +12,7 @@ type Good = readonly (Candidate | null)[];
  * Sees to it that good poses are doubtful that their film does not go through: each fits by itself. The core says which, of each component's
  * film; it is said anew whenever a pose has changed, and is no unit of undo.
  */
-export class WayWatch {
+export class DetourWatch {
   readonly #store: Store;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #asked = new Map<ComponentName, Good>();

@@ -4,7 +4,7 @@ import { plainDoc, readDoc } from '../../src/document/session/session';
 import { Store } from '../../src/document/store';
 import { type Candidate, cellOf, type Posed, type Verdict, verdictAlone, verdictOf } from '../../src/document/types';
 import { asJob } from '../../src/jobs/services';
-import { WayWatch } from '../../src/jobs/way_watch';
+import { DetourWatch } from '../../src/jobs/detour_watch';
 import type { PoseProtocol } from '../../src/workers/protocol/pose';
 
 type Asked = PoseProtocol['offTheWay']['input'];
@@ -24,14 +24,14 @@ function bench() {
     asked.push(poses.map((pose) => pose?.yRot ?? null));
     return poses.map((pose) => (pose && pose.yRot > 90 ? `turned by ${pose.yRot}` : null));
   };
-  new WayWatch(store, { call } as unknown as ConstructorParameters<typeof WayWatch>[1]);
+  new DetourWatch(store, { call } as unknown as ConstructorParameters<typeof DetourWatch>[1]);
   store.perform(addFrames(['a', 'b', 'c'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 }))));
   const put = (frameId: string, result: Posed | null) => store.amend((doc) => withCell(doc, { frameId, component: 'femur' }, { outline: null, result, resultOf: null }));
   const result = (frameId: string) => cellOf(store.doc, frameId, 'femur').result;
   return { store, asked, put, result };
 }
 
-describe('way watch', () => {
+describe('detour watch', () => {
   it('makes a pose doubtful that its film does not go through, and takes it back when it does', async () => {
     const { put, result } = bench();
     put('a', posed(1));
