@@ -26,15 +26,15 @@ interface Region {
   readonly bytes: Uint8Array;
 }
 
-/** Items for a proposal, and sentences about regions that are no outlines. */
-export function readRegions(bytes: Uint8Array, file: string): ReadOutlines {
+/** Items for a proposal, and sentences about regions that are no outlines; `order`: of a file of one among those that come with it. */
+export function readRegions(bytes: Uint8Array, file: string, order = 0): ReadOutlines {
   const isZip = bytes[0] === 0x50;
   const regions = isZip ? unpacked(bytes) : [{ file, bytes }];
   const items: ProposedItem[] = [];
   const remarks: string[] = [];
   for (const [at, region] of regions.entries()) {
     try {
-      items.push(itemOf(region, at, file));
+      items.push(itemOf(region, order + at, file));
     } catch (error) {
       if (!(error instanceof ReadError)) throw error;
       if (!isZip) throw error;
@@ -63,6 +63,7 @@ function attempted<T>(read: () => T): T {
 function itemOf({ file, bytes }: Region, at: number, source: string): ProposedItem {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const points = attempted(() => cornersOf(view));
+  if (!points.every(({ column, row }) => Number.isFinite(column + row))) throw new ReadError('a corner of it is no number');
   const name = attempted(() => nameOf(view)) || file.replace(/\.roi$/i, '');
   const slice = attempted(() => view.getInt32(56));
   // Names that ImageJ gives are slice and place, and no frame's.

@@ -23,8 +23,9 @@ export const TOLERANCE = 0.4;
 export async function readOutlineFiles(files: readonly (Incoming & { readonly kind: OutlineKind })[]): Promise<ReadOutlines> {
   const items: ProposedItem[] = [];
   const remarks: string[] = [];
-  const images = files.filter(({ kind }) => kind === 'labelme');
   for (const file of files) {
+    // Those of which a file is for one image.
+    const images = files.filter(({ kind }) => kind === file.kind);
     try {
       const read = await readOne(file, { order: images.indexOf(file), images: images.length });
       items.push(...read.items);
@@ -45,7 +46,7 @@ async function readOne(file: Incoming & { readonly kind: OutlineKind }, place: P
     case 'labelme':
       return readLabelme(await textOf(file), file.name, place);
     case 'imagej':
-      return readRegions(await bytesOf(file.blob), file.name);
+      return readRegions(await bytesOf(file.blob), file.name, place.order);
   }
 }
 

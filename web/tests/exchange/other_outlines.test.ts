@@ -72,8 +72,8 @@ describe('regions of ImageJ', () => {
     const { items } = readRegions(bytes(PARTS), 'x.roi');
     expect(items).toMatchObject([{ image: '', order: 2, subject: 'femur', label: 'x.roi, femur' }]);
     expect(items[0]!.outline.points.map(({ column, row }) => [column, row])).toEqual([[10, 20], [30.5, 22], [28, 60.25]]);
-    const whole = readRegions(bytes(WHOLE), 'tibia_0007.roi').items[0]!;
-    expect(whole).toMatchObject({ image: 'tibia_0007.roi', subject: 'tibia', label: 'tibia_0007.roi, tibia_0007' });
+    const whole = readRegions(bytes(WHOLE), 'tibia_0007.roi', 4).items[0]!;
+    expect(whole).toMatchObject({ order: 4, image: 'tibia_0007.roi', subject: 'tibia', label: 'tibia_0007.roi, tibia_0007' });
     expect(whole.outline.points.map(({ column, row }) => [column, row])).toEqual([[10, 20], [30, 22], [28, 60]]);
   });
 
@@ -95,6 +95,9 @@ describe('regions of ImageJ', () => {
     many[16] = many[17] = 255;
     expect(() => readRegions(many, 'x.roi')).toThrow('it is cut short or damaged');
     expect(() => readRegions(strToU8('PK\u0003\u0004nothing'), 'x.zip')).toThrow('it is cut short or damaged');
+    const nowhere = bytes(PARTS);
+    nowhere.set([0x7f, 0xc0, 0, 0], 64 + 4 * 3);
+    expect(() => readRegions(nowhere, 'x.roi')).toThrow('a corner of it is no number');
     const composite = bytes(WHOLE);
     composite[39] = 9;
     expect(() => readRegions(composite, 'x.roi')).toThrow('it is made of several regions: export each');
