@@ -15,7 +15,7 @@ use shape::Shape;
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, checked_area};
 use crate::limits::MAX_FRAMES;
-use crate::luminance::weighted;
+use crate::luminance::{luminance, weighted};
 use crate::numbers::{Range, in_16_bits};
 
 pub(crate) use header::MARK;
@@ -87,6 +87,10 @@ impl Array {
     fn grey(&self, bytes: &[u8], at: usize) -> f64 {
         let number = |channel: usize| self.number(bytes, at + channel * self.shape.channels.step);
         match self.shape.channels.count {
+            3.. if self.header.number.fits() => {
+                let [red, green, blue] = [0, 1, 2].map(|channel| number(channel) as u16);
+                luminance(red, green, blue).into()
+            }
             3.. => weighted([number(0), number(1), number(2)]),
             _ => number(0),
         }

@@ -38,7 +38,7 @@ def theirs(path, kind):
             warnings.simplefilter("ignore")
             if kind.startswith("random"):
                 return oracle.random_image(path, kind)
-            return {"dicom": oracle.dicom, "tiff": oracle.tiff}.get(kind, oracle.picture)(path)
+            return {"dicom": oracle.dicom, "tiff": oracle.tiff, "numpy": oracle.numpy}.get(kind, oracle.picture)(path)
     except Exception as error:  # whatever a library may raise
         return None, 0, f"{type(error).__name__}: {' '.join(str(error).split())[:60]}"
 

@@ -27,7 +27,7 @@ def colours(bits=8):
 def files(folder):
     os.makedirs(folder, exist_ok=True)
     out = []
-    for make, kind in [(dicoms, "dicom"), (tiffs, "tiff"), (pictures, "picture")]:
+    for make, kind in [(dicoms, "dicom"), (tiffs, "tiff"), (pictures, "picture"), (arrays, "numpy")]:
         for name, write in make():
             path = os.path.join(folder, name)
             try:
@@ -281,3 +281,20 @@ def pictures():
         yield name, save(Image.fromarray(grey if mode == "L" else colours()))
     yield "grey.webp", save(Image.fromarray(grey), lossless=True)
     yield "grey.gif", save(Image.fromarray(grey))
+
+
+def arrays():
+    def save(array):
+        return lambda path: np.save(path, array)
+
+    film = np.stack([picture(16, seed) for seed in (1, 2, 3)])
+    for kind in ("u1", "<u2", ">u2", "<i4", ">i8", "<f4"):
+        numbers = (film >> 8 if kind == "u1" else film).astype(kind)
+        yield f"film-{kind.strip('<>')}-{'big' if kind[0] == '>' else 'little'}.npy", save(numbers)
+        yield f"columns-{kind.strip('<>')}-{'big' if kind[0] == '>' else 'little'}.npy", save(np.asfortranarray(numbers))
+    yield "negative.npy", save(film.astype(np.int32) - 30000)
+    yield "parts.npy", save(film / 65535)
+    yield "half.npy", save((film / 65535).astype(np.float16))
+    yield "truth.npy", save(film > 30000)
+    yield "frame.npy", save(film[0])
+    yield "colours.npy", save(colours())

@@ -95,11 +95,11 @@ def tiff_page(page):
             array = array[..., :1]
         if array.dtype.kind == "f":
             red, green, blue = (array[..., i].astype(np.float64) for i in range(3))
-            return stretched(0.299 * red + 0.587 * green + 0.114 * blue)
+            return as_pixels(0.299 * red + 0.587 * green + 0.114 * blue)
         return luminance(array)
     bits = page.bitspersample
     if array.dtype.kind == "f":
-        return stretched(array.astype(np.float64))
+        return as_pixels(array.astype(np.float64))
     if array.dtype.kind == "i":
         array = array.astype(np.int64) + (1 << bits - 1) if bits <= 16 else array.astype(np.int64)
     array = array.astype(np.int64)
@@ -110,6 +110,25 @@ def tiff_page(page):
     if page.photometric.name == "MINISWHITE":
         array = most - array
     return array * 255 // most if bits < 8 else array
+
+
+def as_pixels(array):
+    """Floating point: as it is where it is whole and fits 16 bits."""
+    whole = np.all(np.isfinite(array)) and np.all(array == np.floor(array))
+    return array.astype(np.int64) if whole and array.min() >= 0 and array.max() <= 65535 else stretched(array)
+
+
+def numpy(path):
+    """An array: frames before rows and columns, colours behind them; all its frames are mapped alike."""
+    array = np.load(path)
+    kind = f"NumPy {array.dtype.str}, {array.ndim} axes, {'columns' if np.isfortran(array) else 'rows'}"
+    if array.dtype == bool:
+        array = array * np.uint8(255)
+    if array.shape[-1] == 3:
+        return [luminance(array)], 0, kind
+    if array.dtype.kind != "u" or array.dtype.itemsize > 2:
+        array = as_pixels(array.astype(np.float64))
+    return list(np.atleast_3d(array.T).T.astype(np.int64)), 0, kind
 
 
 def stretched(array):
