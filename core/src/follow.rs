@@ -14,7 +14,7 @@
 //! what the constants of the film are estimated from.
 //!
 //! Where nobody points at a component [`SearchPlan`] says in which order it is looked for, and by which search, until it is found;
-//! [`click_leads`], whether what somebody pointed at leads on beside that.
+//! [`click_outcome`], whether what somebody pointed at leads on beside that.
 //!
 //! Nothing here knows files, threads or time: whoever calls gives frames one by one, in the order that he likes.
 
@@ -77,7 +77,7 @@ mod valley;
 mod way;
 
 pub use cell::{Anchor, Cell};
-pub use click_leads::{BesideClick, click_leads, leads_by_itself};
+pub use click_leads::{BesideClick, ClickOutcome, click_outcome, holds_place, leads_by_itself};
 #[cfg(feature = "alloc")]
 pub use conclude::{KnownBeside, conclude, trusted_middles};
 pub use conclusion::{Conclusion, Why, fill_gaps};

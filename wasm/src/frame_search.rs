@@ -1,9 +1,11 @@
 //! A component looked for in frames where nobody points at it: in a whole frame, or where its joint leaves it beside the other one.
 
+mod clicked;
 mod other;
 mod walk;
 
 use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::{Component, FinderBuffers};
 use fluoropose::follow::{FramePose, InJoint, JointSearch, Places, Subject};
@@ -26,7 +28,7 @@ use crate::hidden::with_mask;
 use crate::matcher::OpenLibrary;
 use crate::shape::Shape;
 use crate::squares::square_px;
-use fluoropose_page::calibration::camera;
+use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
@@ -43,6 +45,7 @@ pub struct FrameSearch {
     /// Of whole frames, and of those in the squares that the film is read in.
     whole: Camera,
     camera: Camera,
+    calibration: Calibration,
     /// The frame that is searched, where those are not pixels.
     squares: Option<FrameImage>,
     polarity: Polarity,
@@ -115,7 +118,7 @@ impl FrameSearch {
         height: u32,
     ) -> Result<FrameSearch, JsError> {
         let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
-        let camera = camera(calibration, width, height)?;
+        let (calibration, camera) = calibration_of(calibration, width, height)?;
         Ok(Self {
             libraries: vec![OpenLibrary::of(library)?],
             library: 0,
@@ -123,6 +126,7 @@ impl FrameSearch {
             model,
             whole: camera,
             camera,
+            calibration,
             squares: None,
             polarity: Polarity::DarkImplant,
             film: None,
@@ -334,6 +338,7 @@ impl FrameSearch {
     /// Column and row of a place in what was found.
     #[wasm_bindgen(getter)]
     pub fn place(&self) -> Option<Vec<f64>> {
+        self.found()?;
         let place = match self.search.as_ref()? {
             Search::Whole(search) => search.found()?.place,
             Search::Joint(search) => {
@@ -430,9 +435,16 @@ impl FrameSearch {
     }
 
     fn found(&self) -> Option<&FramePose> {
-        match self.search.as_ref()? {
+        let found = match self.search.as_ref()? {
             Search::Whole(search) => search.found().map(|found| &found.pose),
             Search::Joint(search) => search.found(),
-        }
+        };
+        found.filter(|found| self.may_be_at(&found.pose))
+    }
+
+    /// Whether the component can be where a pose has it: before the detector, and not within the tube.
+    fn may_be_at(&self, pose: &Pose) -> bool {
+        let middle = self.model.as_model().bounds().centre;
+        self.calibration.may_hold(-pose.transform(&middle)[2])
     }
 }

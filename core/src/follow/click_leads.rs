@@ -6,9 +6,15 @@
 
 use super::frame_pose::FramePose;
 use super::joint_search::{MET, TRAY_SCORE};
+use crate::image::mask::Mask;
+use crate::pose::geodesic_deg;
 
 /// A pose is as good as another that scores no more than this many times as much: by less, right ones of one film differ from frame to frame.
 const ALIKE: f64 = 1.18;
+/// Poses that hold the place and are turned by less than this against each other are one, degrees.
+const SAME_DEG: f64 = 3.0;
+/// A hand points a little beside what it means: at most this part of the silhouette's size, which is the side of a square as large.
+const BESIDE: f64 = 0.1;
 
 /// What the film finds by itself, to be compared with what a click led to.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +25,31 @@ pub struct BesideClick<'p> {
     pub holds: Option<bool>,
 }
 
+/// What a click comes to, once it is known what the film finds without it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClickOutcome {
+    /// What the film finds is the same, and leads.
+    Same,
+    /// The click leads.
+    Leads,
+    /// What the film finds is another, and leads.
+    Outdone,
+}
+
+/// Compares what a click led to with what the film finds by itself. `holds`: whether what is drawn where the click led to holds the place that
+/// was pointed at.
+#[must_use]
+pub fn click_outcome(clicked: &FramePose, holds: bool, other: BesideClick<'_>) -> ClickOutcome {
+    let turned = || geodesic_deg(&clicked.pose.rotation, &other.found.pose.rotation);
+    if other.holds == Some(true) && turned() < SAME_DEG {
+        return ClickOutcome::Same;
+    }
+    match click_leads(clicked, holds, other) {
+        true => ClickOutcome::Leads,
+        false => ClickOutcome::Outdone,
+    }
+}
+
 /// Whether what a click led to leads without being compared with anything: it has what is asked of a tray that its joint leaves. Right clicks of
 /// sharp films scored 0.43 to 0.82, wrong ones at most 0.33; in a film that is finer than its blur right ones have less too, which costs a
 /// search and no more.
@@ -27,11 +58,25 @@ pub fn leads_by_itself(clicked: &FramePose) -> bool {
     clicked.score() >= TRAY_SCORE && clicked.fit.met >= MET
 }
 
+/// Whether a silhouette holds the place (column, row, pixels) that was pointed at, or has it close beside it.
+#[must_use]
+pub fn holds_place(drawn: &Mask<'_>, [column, row]: [f64; 2]) -> bool {
+    let reach = BESIDE * libm::sqrt(drawn.area() as f64);
+    let near = |at: f64, end: usize| {
+        let behind = libm::floor(at + reach) + 1.0;
+        libm::ceil(at - reach) as usize..end.min(behind as usize)
+    };
+    let is_near = |x: usize, y: usize| {
+        let (across, down) = (x as f64 - column, y as f64 - row);
+        across * across + down * down <= reach * reach && drawn.get(x, y)
+    };
+    near(row, drawn.height()).any(|y| near(column, drawn.width()).any(|x| is_near(x, y)))
+}
+
 /// Whether what a click led to leads on, though the film finds the `other` by itself. What does not hold the place that was pointed at is
 /// something else, as another knee is, however well it is seen. Else the better one leads, and of two alike the one that holds the place
 /// (`holds`: of the clicked one).
-#[must_use]
-pub fn click_leads(clicked: &FramePose, holds: bool, other: BesideClick<'_>) -> bool {
+fn click_leads(clicked: &FramePose, holds: bool, other: BesideClick<'_>) -> bool {
     let [own, others] = [clicked, other.found].map(FramePose::score);
     match other.holds {
         Some(false) => true,
@@ -44,6 +89,7 @@ pub fn click_leads(clicked: &FramePose, holds: bool, other: BesideClick<'_>) -> 
 mod tests {
     use super::*;
     use crate::follow::fake::turned;
+    use crate::image::mask::{MaskMut, words_needed};
 
     /// A pose with so strong edges along its outline, nothing of which remains.
     fn scored(strength: f64) -> FramePose {
@@ -81,6 +127,46 @@ mod tests {
                 assert!(leads((0.35, holds), (0.2, other_holds)));
             }
         }
+    }
+
+    #[test]
+    fn a_place_a_tenth_of_its_size_beside_a_silhouette_is_held() {
+        let mut words = [0; words_needed(48, 40)];
+        let mut mask = MaskMut::new(&mut words, 48, 40).unwrap();
+        (10..30).for_each(|row| mask.fill_span(row, 15, 35));
+        let mask = mask.as_mask();
+        for (place, held) in [
+            ([20.0, 20.0], true),
+            ([13.0, 20.0], true),
+            ([12.9, 20.0], false),
+            ([36.0, 12.0], true),
+            ([36.1, 12.0], false),
+            ([20.0, 31.0], true),
+            // As far beside both sides, and farther from the corner.
+            ([13.5, 8.5], false),
+            ([-400.0, 20.0], false),
+            ([20.0, 4000.0], false),
+            ([f64::NAN, 20.0], false),
+        ] {
+            assert_eq!(holds_place(&mask, place), held, "{place:?}");
+        }
+        let empty = Mask::new(&[0; words_needed(48, 40)], 48, 40).unwrap();
+        assert!(!holds_place(&empty, [20.0, 20.0]));
+    }
+
+    /// Elsewhere it may be another knee, and lost on the way it is not known.
+    #[test]
+    fn what_holds_the_place_and_is_hardly_turned_is_the_same_whatever_is_weaker() {
+        let outcome = |degrees: f64, holds| {
+            let mut found = scored(0.8);
+            found.pose.rotation = turned(degrees, 0.0).pose.rotation;
+            let found = &found;
+            click_outcome(&scored(0.2), true, BesideClick { found, holds })
+        };
+        assert_eq!(outcome(2.9, Some(true)), ClickOutcome::Same);
+        assert_eq!(outcome(3.1, Some(true)), ClickOutcome::Outdone);
+        assert_eq!(outcome(0.0, None), ClickOutcome::Outdone);
+        assert_eq!(outcome(0.0, Some(false)), ClickOutcome::Leads);
     }
 
     /// Of two knees in a picture the one that nobody pointed at may be seen better.

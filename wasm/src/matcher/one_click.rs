@@ -1,6 +1,7 @@
 //! One click or one box: a first outline and pose, in steps between which a worker can be called off.
 
 use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::{FilmModel, LineMemory};
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::finder::{Component, Verdict};
@@ -64,6 +65,7 @@ struct Beside {
 pub struct OneClick {
     film: FrameImage,
     camera: Camera,
+    calibration: Calibration,
     polarity: Polarity,
     prompt: Prompt,
     excluded: Option<Vec<Word>>,
@@ -102,6 +104,7 @@ impl OneClick {
             untold: (!tells).then(|| calibration.expected_distance()),
             film: film.shared(),
             camera,
+            calibration,
             polarity: match bright_implant {
                 Some(is_bright) => Polarity::of(is_bright),
                 None => film.look(|frame| Ok(prompt.polarity(frame)))?,
@@ -293,10 +296,11 @@ impl OneClick {
         matcher: &mut Matcher,
         around: &Surroundings,
     ) -> Result<OneClickAnswer, JsError> {
-        let answers = self.work.as_ref().map_or(&[][..], Work::answers);
+        let all = self.work.as_ref().map_or(&[][..], Work::answers);
+        let answers = self.possible(matcher, all)?;
         let strongest = answers.first().map_or(0.0, |best| best.score);
-        let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
-        let found = answers.iter().filter(rivals).map(OnFrame::from);
+        let rivals = |answer: &&&Answer| answer.score >= RIVAL_STRENGTH * strongest;
+        let found = answers.iter().filter(rivals).map(|one| OnFrame::from(*one));
         let (seen, found) = (self.seen(), self.given.iter().copied().chain(found));
         let mut answers = matcher.in_squares(found.collect(), &seen)?;
         let among = |answers: &[OnFrame]| {
@@ -344,6 +348,24 @@ impl OneClick {
 }
 
 impl OneClick {
+    /// The answers that lie before the detector and not within the tube; all of them where none does, which their verdicts say.
+    fn possible<'a>(
+        &self,
+        matcher: &mut Matcher,
+        all: &'a [Answer],
+    ) -> Result<Vec<&'a Answer>, JsError> {
+        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
+        let may_be = |answer: &&Answer| {
+            let pose = &answer.refined.pose;
+            self.calibration.may_hold(-pose.transform(&middle)[2])
+        };
+        let possible: Vec<_> = all.iter().filter(may_be).collect();
+        Ok(match possible.is_empty() {
+            true => all.iter().collect(),
+            false => possible,
+        })
+    }
+
     fn seen(&self) -> Seen<'_> {
         Seen {
             frame: &self.film,

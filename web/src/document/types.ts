@@ -264,6 +264,8 @@ export interface Posed {
 export interface OnFrame {
   /** Curvature, blur and attenuation of its film; null where they were not known, and depth is off by millimetres. */
   readonly film: readonly number[] | null;
+  /** Where a person clicked; missing where a box was drawn or the program found the component by itself. */
+  readonly clickedAt?: FramePoint;
 }
 
 export interface Failed {

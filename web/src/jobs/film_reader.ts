@@ -443,7 +443,7 @@ export class FilmReader {
       if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
       const left = { ...result, ...correctedOf(result, answers) };
       const more = answers.filter(({ from }) => from === null).map(another);
-      const after = { ...left, ...settled(left, left.candidates, more), onFrame: { film } };
+      const after = { ...left, ...settled(left, left.candidates, more), onFrame: { ...result.onFrame, film } };
       // What somebody traced stays; the silhouette that a click found goes along.
       const outline = isSilhouette(cell.outline) ? (itsOutline(after.candidates[after.chosen]) ?? cell.outline) : cell.outline;
       return withCell(doc, place, { outline, result: after, resultOf: outline });

@@ -1,6 +1,6 @@
 import type { Place } from '../document/command';
 import { setOutline } from '../document/outlines';
-import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, type FrameEntry } from '../document/types';
 import { middleOf } from '../geometry/mesh_middle';
 import { type FramePoint, framePoint } from '../geometry/points';
 import { inCamera } from '../geometry/pose_motion';
@@ -9,7 +9,7 @@ import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
-import type { Discovery, FindInput, Known, Member, PlanState, PlanStep } from '../workers/protocol/first_poses';
+import type { Clicked, ClickOutcome, Discovery, FindInput, Known, Member, PlanState, PlanStep, WalkInput } from '../workers/protocol/first_poses';
 import type { FollowProtocol } from '../workers/protocol/follow';
 import { frameAt } from './beside_poses';
 import { libraryReady } from './library_ready';
@@ -26,6 +26,16 @@ const LED = 3;
 export interface Clicks {
   ask(prompt: readonly [FramePoint], place: Place, bright: boolean | null, pose: PoseNumbers | null): Promise<void>;
 }
+
+/** What is known before components are looked for. */
+export interface Beforehand {
+  /** Cells that tell nothing, though they have poses. */
+  readonly without: ReadonlySet<Cell>;
+  /** Metal is bright; null where that is not known. */
+  readonly isBright: boolean | null;
+}
+
+const NOTHING: Beforehand = { without: new Set(), isBright: null };
 
 /** A component that was found: by which way of showing metal, and where. */
 interface Taken {
@@ -84,16 +94,32 @@ export class FirstPoses {
     return true;
   }
 
-  /** Looks for components; gives those that were found nowhere. */
-  async find(wanted: readonly ComponentName[], workers: Workers, calledOff: CalledOff): Promise<readonly ComponentName[]> {
+  /**
+   * Looks for components; gives the places where they were found. Poses `without` which they are looked for tell nothing; how the film shows
+   * metal may be known all the same.
+   */
+  async find(wanted: readonly ComponentName[], workers: Workers, calledOff: CalledOff, { without, isBright: told }: Beforehand = NOTHING): Promise<readonly Place[]> {
     const parts = COMPONENT_NAMES.flatMap((name) => this.#member(name) ?? []);
     const { frames } = this.#services.store.doc;
     const search = { ...calledOff, frames, parts, workers, places: new Map(), taken: new Map(), opened: new Map<ComponentName, Distance[]>() };
-    const known = new Map(parts.map(({ component }) => [component, wanted.includes(component) ? [] : this.#known(component)]));
-    const bright = this.#services.store.ui.tracing.bright ?? (await this.#told({ ...search, bright: null }, known));
+    const known = new Map(parts.map(({ component }) => [component, wanted.includes(component) ? [] : this.#known(component, without)]));
+    const bright = this.#services.store.ui.tracing.bright ?? told ?? (await this.#told({ ...search, bright: null }, known));
     await this.#run({ ...search, bright }, known);
     await Promise.all([...search.taken.values()].map(({ done }: Taken) => done));
-    return wanted.filter((component) => !this.#isPosed(search.taken.get(component)?.place));
+    return [...search.taken.values()].map(({ place }: Taken) => place).filter((place) => this.#isPosed(place));
+  }
+
+  /** What a click leads to with what is known of the other component by now. */
+  async clickAgain(place: Place, [column, row]: Clicked['place']): Promise<void> {
+    await this.#clicks.ask([framePoint(column, row)], place, this.#services.store.ui.tracing.bright, null);
+  }
+
+  /** Follows a component to the frame of a click and compares both there. */
+  async compare(component: ComponentName, worker: Worker, known: Known, click: Clicked, bright: boolean, calledOff: CalledOff): Promise<ClickOutcome> {
+    const { frames } = this.#services.store.doc;
+    await this.#walked(component, worker, { ...known, frames: frames.length, bright, goal: click.frame }, { frames, ...calledOff });
+    const { frameId: _, ...pixels } = await frameAt(this.#services, frames, click.frame);
+    return worker.call('clickOutcome', { ...pixels, ...click }, { transfer: [pixels.pixels.buffer] });
   }
 
   async #run(search: Search, known: ReadonlyMap<ComponentName, readonly Known[]>): Promise<PlanState> {
@@ -169,17 +195,18 @@ export class FirstPoses {
   /** Follows a component to both sides of a frame in which it is known: where the other one is looked for too. */
   async #walk({ way, part, frame, known }: PlanStep, search: Search): Promise<Float64Array<ArrayBuffer>> {
     const { component } = search.parts[part]!;
-    const worker = search.workers[component];
+    if (known === null || !(await this.#isOpen(component, search))) return new Float64Array();
+    const begun = { frame, pose: known, frames: search.frames.length, bright: isBright(way, search), goal: null };
+    return this.#walked(component, search.workers[component], begun, search);
+  }
+
+  async #walked(component: ComponentName, worker: Worker, begun: WalkInput, { frames, signal, cancel }: CalledOff & Pick<Search, 'frames'>): Promise<Float64Array<ArrayBuffer>> {
     let ends = new Float64Array();
-    if (known === null || !(await this.#isOpen(component, search))) return ends;
-    const { store } = this.#services;
-    const title = texts.follow.looking(texts.component[component], frame + 1, null);
-    await asJob(store, { title, unit: '', total: 0, cancel: search.cancel }, async () => {
-      const begun = { frame, pose: known, frames: search.frames.length, bright: isBright(way, search) };
+    const title = texts.follow.looking(texts.component[component], begun.frame + 1, null);
+    await asJob(this.#services.store, { title, unit: '', total: 0, cancel }, async () => {
       for (let next = await worker.call('beginWalk', begun); next !== null; ) {
-        const { frameId: _, ...pixels } = await frameAt(this.#services, search.frames, next);
-        const seen = await worker.call('walk', pixels, { signal: search.signal, transfer: [pixels.pixels.buffer] });
-        ({ next, ends } = seen);
+        const { frameId: _, ...pixels } = await frameAt(this.#services, frames, next);
+        ({ next, ends } = await worker.call('walk', pixels, { signal, transfer: [pixels.pixels.buffer] }));
       }
     });
     return ends;
@@ -218,11 +245,12 @@ export class FirstPoses {
   }
 
   /** Frames in which a component has a pose. */
-  #known(component: ComponentName): readonly Known[] {
+  #known(component: ComponentName, without: Beforehand['without']): readonly Known[] {
     const { doc } = this.#services.store;
     const all = doc.frames.flatMap(({ id }, frame) => {
-      const pose = chosenCandidate(cellOf(doc, id, component))?.pose;
-      return pose ? [{ frame, pose }] : [];
+      const cell = cellOf(doc, id, component);
+      const pose = chosenCandidate(cell)?.pose;
+      return pose && !without.has(cell) ? [{ frame, pose }] : [];
     });
     return all.slice(0, LED);
   }
@@ -234,8 +262,8 @@ export class FirstPoses {
     return mesh && { component, mesh, axes };
   }
 
-  #isPosed(place: Place | undefined): boolean {
-    return place !== undefined && cellOf(this.#services.store.doc, place.frameId, place.component).result?.kind === 'posed';
+  #isPosed(place: Place): boolean {
+    return cellOf(this.#services.store.doc, place.frameId, place.component).result?.kind === 'posed';
   }
 }
 

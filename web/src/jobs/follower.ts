@@ -5,7 +5,6 @@ import { currentFrame } from '../document/store';
 import { indexOfFrame } from '../document/frame_index';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
 import { isLed, spanToFollow } from '../results/spans';
-import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -15,6 +14,7 @@ import { aborted, readAsked, readBeside, readFirst } from './beside_poses';
 import type { Beside } from './film_beside';
 import type { FilmLater } from './film_later';
 import { type Before, FilmPass, type Part } from './film_pass';
+import { type Begun, ClickLeads } from './click_leads';
 import type { FirstPoses } from './first_poses';
 import { Progress } from './follow_progress';
 import type { CalledOff } from './search_libraries';
@@ -30,15 +30,17 @@ type Film = Pick<FilmLater, 'ready' | 'chooseSquares' | 'knowsBeside' | 'takeBes
  */
 export class Follower {
   readonly #services: Services;
-  readonly #first: Pick<FirstPoses, 'open' | 'find'>;
+  readonly #first: Pick<FirstPoses, 'open'>;
+  readonly #leads: ClickLeads;
   readonly #film: Film;
   readonly #workers: Readonly<Record<ComponentName, Worker>>;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find'>, film: Film) {
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find' | 'compare' | 'clickAgain'>, film: Film) {
     this.#services = services;
     this.#workers = workers;
     this.#first = first;
+    this.#leads = new ClickLeads(services, first);
     this.#film = film;
   }
 
@@ -53,9 +55,9 @@ export class Follower {
     const unsubscribe = store.subscribe(() => !isOfTheSame(store.doc, begun) && abort.abort());
     store.show({ following: true });
     try {
-      const missing = await this.#begin(abort);
+      const begun = await this.#begin(abort);
       if (!abort.signal.aborted) await this.#readFilm(abort);
-      if (!abort.signal.aborted) await this.#follow(missing, abort);
+      if (!abort.signal.aborted) await this.#follow(begun, abort);
     } catch (error) {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
     } finally {
@@ -67,15 +69,12 @@ export class Follower {
     }
   }
 
-  /** Finds what is set in no frame; gives what is nowhere. Waits for what the film tells of itself. */
-  async #begin(abort: AbortController): Promise<readonly ComponentName[]> {
-    const { store, studio } = this.#services;
-    const isHere = (component: ComponentName) => studio.meshOf(store.doc.components[component].model?.sha256 ?? '') !== null;
-    const unposed = standingOf(store.doc).unposed.filter(isHere);
-    const cancel = () => abort.abort();
-    const missing = unposed.length > 0 ? await this.#first.find(unposed, this.#workers, { signal: abort.signal, cancel }) : [];
+  /** Finds what is set in no frame, or on weak edges; gives what is nowhere. Waits for what the film tells of itself. */
+  async #begin(abort: AbortController): Promise<Begun> {
+    const present = this.#present(this.#services.store.doc);
+    const begun = await this.#leads.begin(present, this.#workers, { signal: abort.signal, cancel: () => abort.abort() });
     await this.#filmReady(abort);
-    return missing;
+    return begun;
   }
 
   /** Reads the film beside the poses that components are followed from all through, so that the way does not depend on a single frame. */
@@ -106,12 +105,12 @@ export class Follower {
     return asJob(this.#services.store, job, () => Promise.race([this.#film.ready(), aborted(abort.signal)]));
   }
 
-  async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
+  async #follow({ missing, told }: Begun, abort: AbortController): Promise<void> {
     const { store } = this.#services;
     const parts = this.#parts(store.doc);
-    const notFound = missing.map((component) => this.#whyMissing(component));
+    const warnings = [...missing.map((component) => this.#whyMissing(component)), ...told];
     this.#sayNotFound(missing);
-    if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
+    if (parts.length === 0) return store.say(warnings.length > 0 ? 'error' : 'info', warnings.length > 0 ? warnings.join(' ') : this.#nothingToDo());
     const before: Before = new Map();
     const begun = store.doc;
     const cancel = () => abort.abort();
@@ -122,18 +121,18 @@ export class Follower {
     store.amend((doc) => withoutSoFar(doc, left));
     // Found with a model or a calibration that is another by now, or in another film.
     if (!isAsBefore) return;
-    this.#take(parts, found, notFound, abort.signal.aborted);
+    this.#take(parts, found, warnings, abort.signal.aborted);
   }
 
   /** Takes what was found from leads that are still there: who took one back found it wrong. */
-  #take(parts: readonly Part[], all: readonly Followed[], notFound: readonly string[], isStopped: boolean): void {
+  #take(parts: readonly Part[], all: readonly Followed[], warnings: readonly string[], isStopped: boolean): void {
     const { store } = this.#services;
     const found = all.filter(({ place }) => isLed(store.doc, place.component));
     if (found.length === 0 && all.length > 0) return store.say('info', this.#nothingToDo());
     if (found.length > 0) store.perform(takeFollowed(found));
     const lacking = found.filter(({ pose }) => !pose).length;
     const done = texts.follow.done(posesOf(store.doc, parts), howManyDoubtful(found), lacking, isStopped);
-    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '), undefined, 'film');
+    store.say(warnings.length > 0 ? 'error' : 'info', [done, ...warnings].join(' '), undefined, 'film');
   }
 
   /** In the card of each component, where it was looked for; the bottom line has it with what was found. */

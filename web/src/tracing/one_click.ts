@@ -114,7 +114,8 @@ export class OneClick {
     if (isSetSince || now.outline !== before.outline) return store.sayAt(place, 'info', texts.tracing.said.changedMeanwhile);
     // What a good click tells of the film holds for the next, and for the other tools.
     if (store.ui.tracing.bright === null && answer.match?.verdict?.word === 'good') store.setTracing({ bright: answer.bright });
-    this.#take(answer, place, key, input.film);
+    // What was found before nobody pointed at.
+    this.#take(answer, { place, clickedAt: prompt.length === 1 && pose === null ? prompt[0] : null }, key, input.film);
   }
 
   #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels | null): Omit<OneClickInput, 'pose'> {
@@ -148,11 +149,11 @@ export class OneClick {
     return isAsked ? texts.tracing.said.unitFirst(texts.component[component], model.name, sentence) : sentence;
   }
 
-  #take(answer: OneClickFacts, place: Place, key: string | null, film: OneClickInput['film']): void {
+  #take(answer: OneClickFacts, { place, clickedAt }: { readonly place: Place; readonly clickedAt: FramePoint | null }, key: string | null, film: OneClickInput['film']): void {
     const { store } = this.#services;
     const laidBy = answer.match ? 'click' : 'tool';
     const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [], laidBy }) as const);
-    const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null };
+    const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null, ...(clickedAt && { clickedAt }) };
     const before = store.doc;
     const sentence = answer.match?.refusal == null ? answer.sentence : this.#withUnit(place.component, answer.sentence);
     store.perform(oneClickOutline(place, outlines, { ...answer, sentence, onFrame }, key));

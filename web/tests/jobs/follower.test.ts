@@ -38,8 +38,10 @@ function bench(missing: readonly number[] = []) {
         const at = discoveries[component];
         if (at !== undefined) store.perform(setPoseByHand({ frameId: `f${at}`, component }, poseOf(0)));
       }
-      return wanted.filter((component) => discoveries[component] === undefined);
+      return wanted.flatMap((component) => (discoveries[component] === undefined ? [] : [{ frameId: `f${discoveries[component]}`, component }]));
     },
+    compare: async () => 'leads' as const,
+    clickAgain: async () => undefined,
   };
   const discoveries: { femur?: number; tibia?: number } = {};
   const taken: [ComponentName, Beside][] = [];

@@ -215,7 +215,10 @@ const readPosed: Reader<Posed> = (value, path) => {
   return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }), ...(own && { own }), ...(aside !== null && { aside }), ...(detour !== null && { detour }), ...(rivals && { rivals }) };
 };
 
-const readOnFrame = object<OnFrame>({ film: nullable(list(number)) });
+const readOnFrame: Reader<OnFrame> = (value, path) => {
+  const { film, clickedAt } = object({ film: nullable(list(number)), clickedAt: optional(object({ column: number, row: number })) })(value, path);
+  return { film, ...(clickedAt && { clickedAt: framePoint(clickedAt.column, clickedAt.row) }) };
+};
 
 /** What came into sessions afterwards. */
 const readLater = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number), own: optional(readVerdict), aside: optional(text), detour: optional(text), rivals: optional(list(readPose)) });

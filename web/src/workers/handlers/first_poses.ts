@@ -2,7 +2,7 @@ import { type FrameImage, FrameSearch, searchDistances, SearchPlan, shapeAxes } 
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { middleOf } from '../../geometry/mesh_middle';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { Discovery, FindInput, FirstPosesProtocol, Known, Member, PlanState, SearchInput, StepAnswer } from '../protocol/first_poses';
+import type { ClickOutcome, Discovery, FindInput, FirstPosesProtocol, Known, Member, PlanState, SearchInput, StepAnswer } from '../protocol/first_poses';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import { withImage } from './frame_pixels';
 import type { Context, Handlers } from './serve';
@@ -93,10 +93,11 @@ export function firstPoses(ready: Promise<unknown>, searcher: Searcher): Handler
         searcher.own().useLibrary(library);
         return searcher.find(image, { beside, places }, context);
       }),
-    beginWalk: ({ frame, pose, frames, bright }) => {
+    beginWalk: ({ frame, pose, frames, bright, goal }) => {
       const search = searcher.own();
       search.showBright(bright);
-      search.beginWalk(frame, numbers(pose), frames);
+      if (goal === null) search.beginWalk(frame, numbers(pose), frames);
+      else search.beginWalkTo(goal, frame, numbers(pose));
       return search.walkWanted() ?? null;
     },
     walk: (pixels) =>
@@ -105,6 +106,18 @@ export function firstPoses(ready: Promise<unknown>, searcher: Searcher): Handler
         search.walkTake(image);
         return { next: search.walkWanted() ?? null, ends: search.walkEnds() as Float64Array<ArrayBuffer> };
       }),
+    isBrightNear: ({ place, ...pixels }) => withImage(pixels, async (image) => searcher.own().isBrightNear(image, ...place)),
+    clickStands: ({ pose, bright, ...pixels }) =>
+      withImage(pixels, async (image) => {
+        const search = searcher.own();
+        search.showBright(bright);
+        const standing = search.clickStands(image, numbers(pose));
+        const { score, convinces } = standing;
+        standing.free();
+        return { score, convinces };
+      }),
+    clickOutcome: ({ frame, pose, place, ...pixels }) =>
+      withImage(pixels, async (image) => searcher.own().clickOutcome(image, frame, numbers(pose), ...place) as ClickOutcome),
   };
 }
 

@@ -22,11 +22,36 @@ export interface FirstPosesProtocol {
   isBright: { input: FramePixels & { readonly pose: PoseNumbers }; output: boolean; progress: never };
   /** Looks for the component in a frame; null where it is nowhere. */
   find: { input: FramePixels & FindInput; output: Discovery | null; progress: { readonly fraction: number } };
-  /** Begins to follow it from a frame in which it is known to some before and after it; gives the first frame that is to be looked at. */
-  beginWalk: { input: { readonly frame: number; readonly pose: PoseNumbers; readonly frames: number; readonly bright: boolean }; output: number | null; progress: never };
+  /** Begins to follow it from a frame in which it is known to some before and after it, or up to another one; gives the first frame that is to be looked at. */
+  beginWalk: { input: WalkInput; output: number | null; progress: never };
   /** Looks at the frame that was asked for. */
   walk: { input: FramePixels; output: { readonly next: number | null; readonly ends: Float64Array<ArrayBuffer> }; progress: never };
+  /** Whether metal is bright in a frame, by a place in it (column and row). */
+  isBrightNear: { input: FramePixels & { readonly place: readonly [number, number] }; output: boolean; progress: never };
+  /** How a pose that a click led to lies in its frame. */
+  clickStands: { input: FramePixels & Pick<Clicked, 'pose'> & { readonly bright: boolean }; output: { readonly score: number; readonly convinces: boolean }; progress: never };
+  /** Compares a click with what the last walk led to in its frame. */
+  clickOutcome: { input: FramePixels & Clicked; output: ClickOutcome; progress: never };
 }
+
+export interface WalkInput {
+  readonly frame: number;
+  readonly pose: PoseNumbers;
+  readonly frames: number;
+  readonly bright: boolean;
+  /** Null: some frames to both sides. */
+  readonly goal: number | null;
+}
+
+/** A click: the pose that it led to in a frame, and the column and row that were pointed at. */
+export interface Clicked {
+  readonly frame: number;
+  readonly pose: PoseNumbers;
+  readonly place: readonly [number, number];
+}
+
+/** The click leads, or what the film finds without it: the same, or another. */
+export type ClickOutcome = 'leads' | 'same' | 'outdone';
 
 /** A component of the joint: its model, and its axes as they are known. */
 export interface Member {

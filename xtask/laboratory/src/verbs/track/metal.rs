@@ -2,13 +2,13 @@
 
 use anyhow::Result;
 use fluoropose::follow::{
-    Anchor, FramePose, KnownFrame, NOWHERE, Other, Places, Search, SearchPlan, SearchStep, Sought,
-    VAIN,
+    Anchor, ClickOutcome, FramePose, KnownFrame, NOWHERE, Other, Places, Search, SearchPlan,
+    SearchStep, Sought, VAIN,
 };
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 
 use super::anchors::{fixed_poses, given};
-use super::clicks::{Doubtful, Outcome};
+use super::clicks::Doubtful;
 use super::follow::ends_beside;
 use super::part::Part;
 use super::run::Run;
@@ -137,7 +137,7 @@ impl<'s> Way<'s> {
             doubtful.sort_by(|a, b| b.found.score().total_cmp(&a.found.score()));
             for one in doubtful {
                 let anchors = &mut self.anchors[number];
-                if let Outcome::Leads = one.against(run, part, anchors)? {
+                if let ClickOutcome::Leads = one.against(run, part, anchors)? {
                     anchors.retain(|anchor| !is_of(&self.found, (number, anchor)));
                     leads |= anchors.is_empty();
                     know(anchors, one.anchor());
