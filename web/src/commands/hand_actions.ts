@@ -8,7 +8,7 @@ import type { FromHere } from '../jobs/from_here';
 import type { LandscapeFacts } from '../workers/protocol/by_hand';
 import type { Landscapes } from '../jobs/landscape';
 import { sentenceOf, type Services } from '../jobs/services';
-import { isTurn, nudged } from '../geometry/pose_motion';
+import { inCamera, isTurn, nudged } from '../geometry/pose_motion';
 import type { HandAction } from './hand_bindings';
 import { texts } from '../texts/texts';
 import { handSituationOf, placedPose } from './model_in_hand';
@@ -167,7 +167,7 @@ export class HandActions {
     }
     const pose = nudged(situation.pose, field, by, situation.middle, situation.locks);
     // In front of the camera it stays.
-    if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, `${place.frameId} ${place.component} ${mergeKey}`));
+    if (inCamera(pose, situation.middle)[2] < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, `${place.frameId} ${place.component} ${mergeKey}`));
     return true;
   }
 }

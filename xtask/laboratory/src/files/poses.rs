@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use fluoropose::math::norm;
 use fluoropose::pose::jts;
 use fluoropose::pose::{EulerPose, Pose};
 
@@ -28,10 +29,11 @@ const DEPTHS: RangeInclusive<f64> = 150.0..=10_000.0;
 
 /// Poses that lie where no knee does, as those in other lengths: a sentence without its full stop.
 pub(super) fn doubt_of_lengths(poses: &[Option<Pose>]) -> Option<String> {
-    let depths = poses.iter().flatten().map(|pose| pose.translation[2].abs());
-    let mut depths: Vec<f64> = depths.collect();
-    depths.sort_by(f64::total_cmp);
-    let median = *depths.get(depths.len() / 2)?;
+    // The origin of a model may lie beside the camera, or behind it.
+    let away = poses.iter().flatten().map(|pose| norm(&pose.translation));
+    let mut away: Vec<f64> = away.collect();
+    away.sort_by(f64::total_cmp);
+    let median = *away.get(away.len() / 2)?;
     (!DEPTHS.contains(&median)).then(|| {
         format!(
             "poses lie {median:.1} mm from the focus (median), and no knee is there: lengths of poses are in mm, of which an inch has 25.4 and a centimetre 10"
@@ -71,6 +73,9 @@ mod tests {
         );
         assert_eq!(told([-1020.0, -1080.0, -40.0]), None);
         assert_eq!(told([1020.0, 1080.0, 990.0]), None);
+        let mut beside = Pose::IDENTITY;
+        beside.translation = [-1105.0, 491.0, 40.0];
+        assert_eq!(doubt_of_lengths(&[Some(beside)]), None);
         assert_eq!(doubt_of_lengths(&[None]), None);
     }
 }

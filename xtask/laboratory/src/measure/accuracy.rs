@@ -1,6 +1,6 @@
 //! Errors of poses against known ones, and their statistics.
 
-use fluoropose::math::wrap;
+use fluoropose::math::{Vector3, wrap};
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::SymmetryPlane;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -25,9 +25,9 @@ pub struct Errors {
     pub geodesic_deg: f64,
 }
 
-/// A pose in our camera frame, which looks along -z.
-pub fn in_front(pose: &Pose) -> Pose {
-    if pose.translation[2] > 0.0 {
+/// A pose in our camera frame, which looks along -z, of a model whose `middle` lies before the camera: its origin may lie behind it.
+pub fn in_front(pose: &Pose, middle: &Vector3) -> Pose {
+    if pose.transform(middle)[2] > 0.0 {
         pose.flip_camera_axes()
     } else {
         *pose
@@ -130,6 +130,15 @@ mod tests {
         assert_eq!(median_absolute(&[5.0, -1.0, 2.0]), 2.0);
         assert_eq!(median_absolute(&[5.0, -1.0]), 3.0);
         assert!(median_absolute(&[]).is_nan());
+    }
+
+    /// Models as scanners have them lie metres from their origin.
+    #[test]
+    fn what_lies_before_the_camera_is_told_by_the_model_and_not_by_its_origin() {
+        let mut behind = pose(0.0, 0.0, 0.0);
+        behind.translation = [0.0, 0.0, 1480.0];
+        assert_eq!(in_front(&behind, &[0.0, 0.0, -2700.0]), behind);
+        assert_eq!(in_front(&behind, &[0.0; 3]), behind.flip_camera_axes());
     }
 
     #[test]

@@ -157,7 +157,7 @@ impl Row {
                 row.none += 1;
                 continue;
             };
-            let off = Off::of(&pose, &in_front(reference), middle);
+            let off = Off::of(&pose, &in_front(reference, middle), middle);
             row.doubtful += usize::from(!found.is_good);
             if found.is_good {
                 row.largest_good_deg = row.largest_good_deg.max(off.deg);

@@ -220,7 +220,7 @@ impl<'s> Known<'s> {
                 "{}: there are {rows} rows, but the film has {count} frames",
                 path.display()
             );
-            let pose = |&frame: &usize| Some(in_front(all.get(frame)?.as_ref()?));
+            let pose = |&frame: &usize| Some(in_front(all.get(frame)?.as_ref()?, &middle));
             anyhow::Ok(chosen.iter().map(pose).collect())
         });
         Ok(Self {

@@ -255,7 +255,11 @@ impl<'s> Part<'s> {
         }
         let finder = self.finder(&built, sequence, Method::Library, request)?;
         let first = first_poses(&finder, sequence);
-        let depths: Vec<f64> = first.iter().map(|one| one.pose.translation[2]).collect();
+        let middle = self.model.as_model().bounds().centre;
+        let depths: Vec<f64> = first
+            .iter()
+            .map(|one| one.pose.transform(&middle)[2])
+            .collect();
         let seen = match depths.is_empty() || asked.distance.is_some() {
             true => guess,
             false => median_absolute(&depths),
@@ -353,7 +357,7 @@ fn from_reference(
     film: Option<FilmModel>,
 ) -> Vec<Option<Pose>> {
     let refine = |buffers: &mut RefineBuffers, (frame, pose): (usize, &Option<Pose>)| {
-        let start = in_front(&(*pose)?);
+        let start = in_front(&(*pose)?, &part.model.bounds().centre);
         let found = part.refine(frame, &start, film, buffers);
         let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &start.rotation);
         let poses = found.map(|found| {

@@ -65,7 +65,7 @@ fn parts(told: &[[[f64; 2]; 6]], off: impl Fn(usize, f64) -> f64) -> [Numbers; 2
 fn told(decision: &Decision, known: &Pose, middle: &[f64; 3]) -> Option<[[f64; 2]; 6]> {
     let pose = decision.pose()?;
     let sd = Numbers::deviations(&decision.chosen, middle)?.all();
-    let errors = Errors::of(&pose, &in_front(known));
+    let errors = Errors::of(&pose, &in_front(known, middle));
     let errors = [
         errors.x_mm,
         errors.y_mm,

@@ -18,6 +18,7 @@ pub(super) fn against(
     noise: Noise,
     rms: &Errors,
 ) -> Result<Comparison> {
+    let middle = mesh.bounds().centre;
     let mut outlines = Outlines::new(mesh, found.camera);
     let mut limits: Vec<PoseLimits> = Vec::new();
     let frames = reference
@@ -30,7 +31,7 @@ pub(super) fn against(
             continue;
         };
         let hidden = hidden.as_ref().map(MaskBuffer::mask);
-        let found = outlines.pose_limits(&in_front(pose), &noise, hidden.as_ref());
+        let found = outlines.pose_limits(&in_front(pose, &middle), &noise, hidden.as_ref());
         limits.push(found.with_context(|| format!("at the reference {pose:?}"))?);
     }
     Ok(Comparison::of(noise, &limits, rms))

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use fluoropose::math::Vector3;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 
@@ -16,6 +17,8 @@ pub(super) struct Reference {
     pub(super) poses: Vec<Option<Pose>>,
     /// Planes in which the component is nearly symmetric.
     planes: Vec<SymmetryPlane>,
+    /// Of the model's box.
+    middle: Vector3,
 }
 
 impl Reference {
@@ -27,7 +30,18 @@ impl Reference {
         Ok(Some(Self {
             poses: read_poses_of(path, frames)?,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
+            middle: model.as_model().bounds().centre,
         }))
+    }
+
+    /// Both poses in the reference's own camera frame. A model in front of a camera that looks along +z (computer vision, as camera-matrix
+    /// studies may have) has positive z; ours never do, but for an origin that lies behind the camera.
+    fn in_frame_of(&self, found: Pose, reference: Pose) -> (Pose, Pose) {
+        let [z, known] = [found, reference].map(|pose| pose.transform(&self.middle)[2]);
+        match z * known < 0.0 {
+            true => (found.flip_camera_axes(), reference),
+            false => (found, reference),
+        }
     }
 
     /// The row of poses that are named by component, source and method.
@@ -45,7 +59,7 @@ impl Reference {
         }
         let both = found.iter().zip(&self.poses);
         let pairs: Vec<(Pose, Pose)> = both
-            .filter_map(|(found, reference)| Some(in_frame_of((*found)?, (*reference)?)))
+            .filter_map(|(found, reference)| Some(self.in_frame_of((*found)?, (*reference)?)))
             .collect();
         let errors: Vec<Errors> = pairs.iter().map(|(a, b)| Errors::of(a, b)).collect();
         let none = |poses: &[Option<Pose>]| poses.iter().filter(|pose| pose.is_none()).count();
@@ -71,15 +85,5 @@ impl Reference {
             from_reference: None,
             limits: None,
         })
-    }
-}
-
-/// Both poses in the reference's own camera frame. A reference in front of a camera that looks
-/// along +z (computer vision, as camera-matrix studies may have) has positive z; ours never do.
-fn in_frame_of(found: Pose, reference: Pose) -> (Pose, Pose) {
-    if reference.translation[2] * found.translation[2] < 0.0 {
-        (found.flip_camera_axes(), reference)
-    } else {
-        (found, reference)
     }
 }
