@@ -17,7 +17,7 @@ use crate::film::{FilmModel, PathLine};
 use crate::image::display::QuickCurve;
 use crate::image::silhouette::CommonOffset;
 use crate::math::{inverse_spd, sqrt};
-use crate::pose::covariance::{Matrix6, PoseCovariance};
+use crate::pose::covariance::{Matrix6, PoseCovariance, congruence};
 
 /// Standard deviation of the common distance, pixels, where the film is known and before its residuals say anything of it. Depths on
 /// synthetic films of nine kinds are off by 0.10 px of outline (femur) and 0.07 px (tray); edges enhanced, or cement beside them, move
@@ -35,12 +35,32 @@ fn uneven(sample: &BorderPixel) -> [f32; UNEVEN] {
     [right, down, right * right - down * down, 2.0 * right * down]
 }
 
-/// Sums over the samples of all grey frames.
+/// `sum l J dr` of a mask by `px` of each way to be uneven.
+fn uneven_pulls((border, motion): (&[BorderPixel], &Motion), px: f64) -> [[f64; 6]; UNEVEN] {
+    let mut whole = [[0.0; 6]; UNEVEN];
+    for block in border.chunks(BLOCK) {
+        let mut pulls = [[0.0; 6]; UNEVEN];
+        for sample in block.iter().filter(|sample| sample.has_residual()) {
+            let jacobian = motion.jacobian(sample);
+            for (pull, part) in pulls.iter_mut().zip(uneven(sample)) {
+                let moved = sample.weight * part * px as f32;
+                for (sum, a) in pull.iter_mut().zip(&jacobian) {
+                    *sum += moved * a;
+                }
+            }
+        }
+        add_to(&mut whole, &pulls);
+    }
+    whole
+}
+
+/// Sums over the samples of all views.
 #[derive(Default)]
 pub(super) struct EdgeBias {
     information: Matrix6,
-    /// By one standard deviation of each way in which masks are uneven.
-    uneven: [[f64; 6]; UNEVEN],
+    /// Covariance of the pull of all ways in which masks are uneven, each mask by itself: one may be shifted to the right and
+    /// another to the left.
+    uneven: Matrix6,
     /// By one standard deviation of each constant, and by the common distance.
     pulls: [[f64; 6]; CONSTANTS + 1],
     correlation: [[f64; CONSTANTS]; CONSTANTS],
@@ -166,23 +186,17 @@ impl EdgeBias {
 
     /// Adds how far a mask's outline lies off where one side of it lies off by `px` and another does not. A whole outline that is shifted, or wider along
     /// one line than across, leaves as little as one that is wider everywhere: the pose goes along.
-    fn add_uneven(&mut self, (border, motion): (&[BorderPixel], &Motion), px: f64) {
+    fn add_uneven(&mut self, samples: (&[BorderPixel], &Motion), px: f64) {
         if px <= 0.0 {
             return;
         }
         self.any = true;
-        for block in border.chunks(BLOCK) {
-            let mut pulls = [[0.0; 6]; UNEVEN];
-            for sample in block.iter().filter(|sample| sample.has_residual()) {
-                let jacobian = motion.jacobian(sample);
-                for (pull, part) in pulls.iter_mut().zip(uneven(sample)) {
-                    let moved = sample.weight * part * px as f32;
-                    for (sum, a) in pull.iter_mut().zip(&jacobian) {
-                        *sum += moved * a;
-                    }
+        for pull in &uneven_pulls(samples, px) {
+            for (row, own) in self.uneven.iter_mut().zip(pull) {
+                for (value, other) in row.iter_mut().zip(pull) {
+                    *value += own * other;
                 }
             }
-            add_to(&mut self.uneven, &pulls);
         }
     }
 
@@ -232,7 +246,7 @@ impl EdgeBias {
         let (Some(shifts), Some(inverse)) = (self.shifts(), self.inverse()) else {
             return covariance;
         };
-        let uneven = self.uneven.map(|pull| times(&inverse, &pull));
+        let uneven = congruence(&inverse, &self.uneven);
         let mut matrix = covariance.matrix;
         let of = |shift: &[f64; 6], number: usize| shift.get(number).copied().unwrap_or_default();
         let (constants, [common]) = shifts.split_at(CONSTANTS) else {
@@ -240,12 +254,9 @@ impl EdgeBias {
         };
         let left = self.common(common, errors);
         let common = &common.map(|value| left * value);
-        for (row, values) in matrix.iter_mut().enumerate() {
-            for (column, value) in values.iter_mut().enumerate() {
-                *value += of(common, row) * of(common, column);
-                for one in &uneven {
-                    *value += of(one, row) * of(one, column);
-                }
+        for (row, (values, uneven)) in matrix.iter_mut().zip(&uneven).enumerate() {
+            for (column, (value, uneven)) in values.iter_mut().zip(uneven).enumerate() {
+                *value += of(common, row) * of(common, column) + uneven;
                 for (one, correlated) in constants.iter().zip(&self.correlation) {
                     for (other, correlation) in constants.iter().zip(correlated) {
                         *value += correlation * of(one, row) * of(other, column);

@@ -1,6 +1,9 @@
 use super::*;
 use crate::camera::Camera;
 use crate::film::FilmConstants;
+use crate::image::mask::{Mask, words_needed};
+use crate::math::{radians, rotation_by};
+use crate::pose::Pose;
 use crate::refine::border::Residual;
 use std::vec::Vec;
 
@@ -130,7 +133,8 @@ fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
     assert_eq!(with(0.0).widen(none, errors()), none);
     let bias = with(0.5);
     let inverse = bias.inverse().expect("determined");
-    let shifts = bias.uneven.map(|pull| times(&inverse, &pull));
+    let pulls = uneven_pulls((&border, &motion), 0.5);
+    let shifts = pulls.map(|pull| times(&inverse, &pull));
     for (which, shift) in shifts.iter().enumerate() {
         assert_follows(&border, &motion, shift, |_, sample| {
             let [right, down] = sample.normal().map(f64::from);
@@ -155,6 +159,49 @@ fn an_uneven_mask_widens_by_the_poses_that_follow_it() {
         let due: f64 = shifts.iter().map(|shift| shift[k] * shift[k]).sum();
         assert!((row[k] - due).abs() < 1e-12 * due.max(1.0), "{k}");
     }
+}
+
+/// Of two cameras each has a mask of its own: one that is shifted to the right says nothing of the other. Seen from the other side the same shift
+/// leads the other way, and taken for one both would cancel.
+#[test]
+fn masks_of_two_cameras_are_uneven_each_by_itself() {
+    let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
+    let (border, words) = (samples(), std::vec![0; words_needed(256, 256)]);
+    let mask = Mask::new(&words, 256, 256).expect("fits");
+    let middle = [0.0, 0.0, -590.0];
+    let seen_from = |turns_deg: &[f64]| {
+        let mut bias = EdgeBias::default();
+        for &turn_deg in turns_deg {
+            let placement = Pose {
+                rotation: rotation_by(&[0.0, radians(turn_deg), 0.0]),
+                translation: [0.0; 3],
+            };
+            let view = CameraView {
+                placement,
+                ..CameraView::only(&camera, &mask)
+            };
+            let motion = Motion::of(&view, &middle);
+            bias.add_moved((&border, &motion), 0.0, |_, _| [0.0; CONSTANTS]);
+            bias.add_uneven((&border, &motion), 0.5);
+        }
+        let none = PoseCovariance {
+            matrix: [[0.0; 6]; 6],
+        };
+        let errors = Errors {
+            noise: 1.0,
+            curvature: 1.0,
+        };
+        bias.widen(none, errors).matrix
+    };
+    let one = seen_from(&[0.0]);
+    let twice = seen_from(&[0.0, 0.0]);
+    for k in 0..6 {
+        assert!((twice[k][k] / one[k][k] - 0.5).abs() < 1e-6, "{k}");
+    }
+    // What is one's right is the other's left.
+    let facing = seen_from(&[0.0, 180.0]);
+    let part = facing[3][3] / one[3][3];
+    assert!((0.25..0.75).contains(&part), "{part}");
 }
 
 #[test]
