@@ -40,7 +40,7 @@ impl Candidate {
     /// is small, and counts outline that has no counterpart.
     #[must_use]
     pub fn misfit(&self) -> f64 {
-        let refined = self.refined.map(|refined| sqrt(2.0 * refined.loss));
+        let refined = self.refined.as_ref().map(misfit_of);
         let located = || self.located.map(|located| located.unmatched as f64);
         refined.or_else(located).unwrap_or(f64::INFINITY)
     }
@@ -66,16 +66,25 @@ impl Candidate {
     }
 }
 
+/// By what a refined pose is compared with others ([`Candidate::misfit`]), pixels.
+pub(super) fn misfit_of(refined: &Refined) -> f64 {
+    sqrt(2.0 * refined.loss)
+}
+
 /// Keeps a candidate in place of those that came to the same pose and fit worse, and not at all where one of these fits as well: two that are one are
 /// no reason to doubt either.
 pub(super) fn keep_once(candidates: &mut Vec<Candidate, CANDIDATES>, candidate: Candidate) {
-    let is_same = |other: &Candidate| is_same(&candidate.pose, &other.pose);
-    let mut same = candidates.iter().filter(|other| is_same(other));
-    if same.any(|other| other.misfit() <= candidate.misfit()) {
+    if has_as_good(candidates, &candidate.pose, candidate.misfit()) {
         return;
     }
-    candidates.retain(|other| !is_same(other));
+    candidates.retain(|other| !is_same(&candidate.pose, &other.pose));
     keep(candidates, candidate, Candidate::misfit);
+}
+
+/// Whether one of the candidates is this pose and fits as well as that leaves.
+pub(super) fn has_as_good(candidates: &[Candidate], pose: &Pose, misfit_px: f64) -> bool {
+    let mut same = candidates.iter().filter(|other| is_same(pose, &other.pose));
+    same.any(|other| other.misfit() <= misfit_px)
 }
 
 /// Whether two poses are turned alike, and their places no farther apart than as much of their distance: an inner rim is met by a pose that is

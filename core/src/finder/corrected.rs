@@ -2,18 +2,17 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate, SAME_DEG, keep_once};
+use super::candidate::{CANDIDATES, Candidate, has_as_good, keep_once, misfit_of};
 use super::mirrored::add_mirror_images;
 use super::rivals::{RefinedRival, refine_rivals};
 use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::pose::{Pose, geodesic_deg};
+use crate::pose::Pose;
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Target, assess, correct,
 };
-use crate::shortlist::keep;
 
 /// Refined poses of an outline that are brought onto the grey frame: the best of them.
 const ON_IMAGE: usize = 3;
@@ -53,7 +52,7 @@ pub fn onto_target<'t>(
     Ok(candidates)
 }
 
-/// Adds a refined pose with what led to it, how sure it is and how well it fits, unless it is there already. By itself, so that
+/// Adds a refined pose with what led to it, how sure it is and how well it fits, unless it is there already and fits as well. By itself, so that
 /// candidates take no place on the stack while poses are refined.
 #[inline(never)]
 pub(super) fn add_assessed(
@@ -63,11 +62,8 @@ pub(super) fn add_assessed(
     memory: &mut RefineMemory<'_>,
     candidates: &mut Vec<Candidate, CANDIDATES>,
 ) -> Result<(), RefineError> {
-    let same = |other: &Candidate| {
-        let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
-        turn < SAME_DEG
-    };
-    if candidates.iter().any(same) {
+    let refined = &found.refined;
+    if has_as_good(candidates, &refined.pose, misfit_of(refined)) {
         return Ok(());
     }
     let assessment = assess(model, &[*view], &found.refined, memory)?;
@@ -79,7 +75,7 @@ pub(super) fn add_assessed(
         covariance: assessment.covariance,
         fit: assessment.fit,
     };
-    keep(candidates, candidate, Candidate::misfit);
+    keep_once(candidates, candidate);
     Ok(())
 }
 
@@ -136,6 +132,15 @@ mod tests {
 
     /// Refined poses turned by so many degrees, whose outlines are left by ever more, and those that became candidates.
     fn added(turns_deg: &[f64], located: Option<Reranked>) -> std::vec::Vec<f64> {
+        let losses: std::vec::Vec<f64> = (1..=turns_deg.len()).map(|k| k as f64).collect();
+        let poses = turns_deg.iter().zip(&losses);
+        let poses = poses.map(|(&deg, &loss)| (placed([20.0, 30.0, deg], [0.0; 3]), loss));
+        let kept = added_with(&poses.collect::<std::vec::Vec<_>>(), located);
+        kept.into_iter().map(|number| turns_deg[number]).collect()
+    }
+
+    /// Which of refined poses, of which so much is left, became candidates, the best first.
+    fn added_with(poses: &[(Pose, f64)], located: Option<Reranked>) -> std::vec::Vec<usize> {
         let (model, camera, right) = (crank(), camera(), placed([20.0, 30.0, 0.0], [0.0; 3]));
         let words = drawn(&model, &camera, &right);
         let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
@@ -143,11 +148,11 @@ mod tests {
         let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
         let mut memory = buffers.borrow(&model, &camera);
         let mut candidates = Vec::new();
-        for (k, &deg) in turns_deg.iter().enumerate() {
-            let pose = placed([20.0, 30.0, deg], [0.0; 3]);
+        for (k, &(pose, loss)) in poses.iter().enumerate() {
             let found = RefinedRival {
                 refined: Refined {
-                    loss: 0.02 * (k + 1) as f64,
+                    loss: 0.02 * loss,
+                    renders: k,
                     ..Refined::at(pose)
                 },
                 ..RefinedRival::at(right, k, false)
@@ -162,10 +167,16 @@ mod tests {
             assert_eq!(added, Ok(()));
         }
         let refined = candidates.iter().filter_map(|one| one.refined);
-        let numbers = refined.map(|refined| refined.loss / 0.02 - 1.0);
-        numbers
-            .map(|number| turns_deg[libm::round(number) as usize])
-            .collect()
+        refined.map(|refined| refined.renders).collect()
+    }
+
+    /// Pieces of an outline are looked for after the whole, and may lead nearer to the right pose than that did.
+    #[test]
+    fn a_better_one_takes_the_place_of_a_candidate_that_came_before() {
+        let at = |deg| placed([20.0, 30.0, deg], [0.0; 3]);
+        let [one, better, other] = [(at(0.0), 3.0), (at(0.4), 1.0), (at(9.0), 2.0)];
+        assert_eq!(added_with(&[one, other, better], None), [2, 1]);
+        assert_eq!(added_with(&[better, other, one], None), [0, 1]);
     }
 
     #[test]
