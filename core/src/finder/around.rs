@@ -7,14 +7,14 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate, SAME_DEG, keep_once};
+use super::candidate::{CANDIDATES, Candidate, is_same, keep_once, misfit_of};
 use super::nearby::about;
 use crate::camera::Camera;
 use crate::math::{radians, scale};
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::pose::{Pose, geodesic_deg};
+use crate::pose::Pose;
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined, assess, fit_at,
     refine,
@@ -65,7 +65,7 @@ pub fn look_around(
         if around
             .found
             .first()
-            .is_some_and(|(_, least)| misfit(least) <= enough_px)
+            .is_some_and(|(_, least)| misfit_of(least) <= enough_px)
         {
             break;
         }
@@ -76,14 +76,6 @@ pub fn look_around(
         keep_once(&mut all, candidate);
     }
     Ok(all)
-}
-
-fn misfit(refined: &Refined) -> f64 {
-    crate::math::sqrt(2.0 * refined.loss)
-}
-
-fn is_same(one: &Pose, other: &Pose) -> bool {
-    geodesic_deg(&one.rotation, &other.rotation) < SAME_DEG
 }
 
 struct Around<'a, 'm> {
@@ -196,10 +188,12 @@ impl Around<'_, '_> {
 #[cfg(all(test, feature = "alloc"))]
 mod tests {
     use super::*;
+    use crate::finder::candidate::SAME_DEG;
     use crate::finder::fake::{SIDE, camera, crank, drawn, placed};
     use crate::image::mask::Mask;
     use crate::image::silhouette::Silhouette;
     use crate::math::{norm, subtract};
+    use crate::pose::geodesic_deg;
     use crate::refine::RefineBuffers;
 
     /// Does something around what is seen of the crank at a pose.
@@ -299,6 +293,6 @@ mod tests {
         assert_eq!((one.start, one.located), (start, best.located));
         assert_eq!((one.pose, one.refined), (found[0].1.pose, Some(found[0].1)));
         assert!(one.covariance.is_some() && one.fit.met > 0.9, "{one:?}");
-        assert!((one.misfit() - misfit(&found[0].1)).abs() < 1e-12);
+        assert!((one.misfit() - misfit_of(&found[0].1)).abs() < 1e-12);
     }
 }

@@ -89,7 +89,7 @@ pub(super) fn has_as_good(candidates: &[Candidate], pose: &Pose, misfit_px: f64)
 
 /// Whether two poses are turned alike, and their places no farther apart than as much of their distance: an inner rim is met by a pose that is
 /// turned alike and lies farther, and that is another one.
-fn is_same(one: &Pose, other: &Pose) -> bool {
+pub(super) fn is_same(one: &Pose, other: &Pose) -> bool {
     let shift = norm(&subtract(&one.translation, &other.translation));
     geodesic_deg(&one.rotation, &other.rotation) < SAME_DEG
         && shift < radians(SAME_DEG) * norm(&one.translation)

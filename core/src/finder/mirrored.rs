@@ -5,13 +5,12 @@
 
 use heapless::Vec;
 
-use super::candidate::{CANDIDATES, Candidate, SAME_DEG};
+use super::candidate::{CANDIDATES, Candidate, has_as_good, keep_once, misfit_of};
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{CameraView, RefineError, RefineMemory, RefineOptions, assess, refine};
-use crate::shortlist::keep;
 
 /// Refinement brings a mirror image back to a candidate that is nearer than this; it was looked at then.
 const LOOKED_AT_DEG: f64 = 2.0;
@@ -33,14 +32,14 @@ pub(super) fn add_mirror_images(
     };
     for plane in planes {
         let start = mirror_pose(&best.pose, plane);
-        if has_one_near(candidates, &start, LOOKED_AT_DEG) {
+        if has_one_near(candidates, &start) {
             continue;
         }
         let tried = refine(model, &[view], &start, options, memory);
         let Some(refined) = RefineError::passed_over(tried)? else {
             continue;
         };
-        if has_one_near(candidates, &refined.pose, SAME_DEG) {
+        if has_as_good(candidates, &refined.pose, misfit_of(&refined)) {
             continue;
         }
         let assessment = assess(model, &[view], &refined, memory)?;
@@ -52,14 +51,14 @@ pub(super) fn add_mirror_images(
             covariance: assessment.covariance,
             fit: assessment.fit,
         };
-        keep(candidates, mirrored, Candidate::misfit);
+        keep_once(candidates, mirrored);
     }
     Ok(())
 }
 
-fn has_one_near(candidates: &[Candidate], pose: &Pose, degrees: f64) -> bool {
+fn has_one_near(candidates: &[Candidate], pose: &Pose) -> bool {
     let mut turns = candidates
         .iter()
         .map(|known| geodesic_deg(&known.pose.rotation, &pose.rotation));
-    turns.any(|turn| turn < degrees)
+    turns.any(|turn| turn < LOOKED_AT_DEG)
 }

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-use super::candidate::SAME_DEG;
+use super::candidate::{SAME_DEG, is_same};
 use crate::finder::nearby::{about, nearby};
 use crate::math::radians;
 use crate::mesh::Model;
@@ -225,7 +225,9 @@ impl Poses {
     }
 
     fn end(&mut self) {
-        keep_open(&mut self.answers, f64::INFINITY, SAME_DEG);
+        // Turned alike and farther away it lies on another edge.
+        let same = |a: &RefinedRival, b: &RefinedRival| is_same(&a.refined.pose, &b.refined.pose);
+        keep_open(&mut self.answers, f64::INFINITY, same);
         self.doing = Doing::Nothing;
     }
 
@@ -233,7 +235,9 @@ impl Poses {
     fn go_on_with_begun(&mut self) {
         let least = self.answers.first().map_or(0.0, |best| best.refined.loss);
         let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
-        keep_open(&mut self.answers, limit, LOOKED_SAME_DEG);
+        keep_open(&mut self.answers, limit, |a, b| {
+            is_within(a, b, LOOKED_SAME_DEG)
+        });
         self.open = first_of(self.answers.iter().copied());
         self.answers.clear();
         self.round = Round::Rest;
@@ -340,11 +344,15 @@ fn is_split(refined: &Refined) -> bool {
 }
 
 /// Keeps those poses whose loss is within a limit, each once, where it comes first: they are listed by rising loss.
-fn keep_open(rivals: &mut Vec<RefinedRival, ANSWERS>, limit: f64, within_deg: f64) {
+fn keep_open(
+    rivals: &mut Vec<RefinedRival, ANSWERS>,
+    limit: f64,
+    same: impl Fn(&RefinedRival, &RefinedRival) -> bool,
+) {
     let mut place = 0;
     while let Some(one) = rivals.get(place) {
         let mut before = rivals.iter().take(place);
-        let is_there = before.any(|other| is_within(other, one, within_deg));
+        let is_there = before.any(|other| same(other, one));
         if one.refined.loss > limit || is_there {
             take_out(rivals, place);
         } else {

@@ -153,7 +153,7 @@ properties! {
         let mut all: std::vec::Vec<_> = all.iter().map(|&(deg, loss)| (f64::from(deg), f64::from(loss))).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut rivals: Vec<RefinedRival, ANSWERS> = first_of(all.iter().map(|&(deg, loss)| rival(deg, loss)));
-        keep_open(&mut rivals, f64::from(limit), 2.5);
+        keep_open(&mut rivals, f64::from(limit), |a, b| is_within(a, b, 2.5));
         let mut left: std::vec::Vec<(f64, f64)> = std::vec![];
         for &(deg, loss) in all.iter().filter(|one| one.1 <= f64::from(limit)) {
             if left.iter().all(|other| (other.0 - deg).abs() > 2.5) {
@@ -163,6 +163,21 @@ properties! {
         let found = rivals.iter().map(|one| (one.refined.pose, one.refined.loss));
         prop_assert!(found.eq(left.iter().map(|&(deg, loss)| (refined(deg, loss).pose, loss))), "{left:?}");
     }
+}
+
+/// An inner rim is met by a pose that is turned as the outer's and lies farther.
+#[test]
+fn poses_that_are_turned_alike_and_lie_apart_are_two_at_the_end() {
+    let mut poses = Poses::new();
+    let farther = |mm: f64, loss: f64| {
+        let mut farther = rival(0.3, loss);
+        farther.refined.pose.translation[2] -= mm;
+        farther
+    };
+    poses.answers = first_of([rival(0.0, 0.1), farther(4.0, 0.11), farther(40.0, 0.12)]);
+    poses.end();
+    let left = poses.answers.iter().map(|one| one.refined.loss);
+    assert!(left.eq([0.1, 0.12]), "{:?}", poses.answers);
 }
 
 #[cfg(feature = "alloc")]
