@@ -120,7 +120,8 @@ impl NearbySearch<'_> {
             centre[1] * (size - 1.0) - (b.row - a.row) * depth / fy,
             centre[2] * (size - 1.0),
         ];
-        let turn = axis_angle(&self.wanted) - axis_angle(&drawn);
+        let aspect = self.camera.aspect();
+        let turn = axis_angle(&self.wanted, aspect) - axis_angle(&drawn, aspect);
         let turn = wrap(turn, core::f64::consts::PI);
         let ray = scale(&centre, -1.0 / norm(&centre));
         Some(about(&self.middle, pose, &scale(&ray, turn), aside))
@@ -143,10 +144,11 @@ pub(crate) fn about(middle: &Vector3, pose: &Pose, turn: &Vector3, shift: Vector
     }
 }
 
-/// Angle of the principal axis, counter-clockwise on the screen, radians, known up to half a turn.
-fn axis_angle(moments: &Moments) -> f64 {
+/// Angle of the principal axis, counter-clockwise on the screen, radians, known up to half a turn; pixels are `aspect` times as high as wide
+/// ([`Camera::aspect`]).
+fn axis_angle(moments: &Moments, aspect: f64) -> f64 {
     let [xx, xy, yy] = moments.covariance();
-    0.5 * atan2(-2.0 * xy, xx - yy)
+    0.5 * atan2(-2.0 * xy * aspect, xx - yy * aspect * aspect)
 }
 
 #[cfg(all(test, feature = "alloc"))]
@@ -184,7 +186,7 @@ mod tests {
                     along.abs() < 49.5 && across.abs() < 7.5,
                 );
             }
-            let angle = axis_angle(&mask.as_mask().moments());
+            let angle = axis_angle(&mask.as_mask().moments(), 1.0);
             let off = wrap(angle - radians(turn_deg), core::f64::consts::PI);
             assert!(off.abs() < 0.005, "{turn_deg}: {angle}");
         }
@@ -238,6 +240,31 @@ mod tests {
     /// Of a flat part that faces the camera area, centroid and axis tell all four numbers at once, exactly.
     #[test]
     fn a_flat_part_is_brought_onto_its_silhouette_by_one_move() {
+        let turned = [
+            (0.0, [0.0, 0.0, 0.0]),
+            (0.0, [-20.0, 0.0, 0.0]),
+            (0.0, [0.0, 25.0, 0.0]),
+            (0.0, [0.0, 0.0, 90.0]),
+            (-30.0, [9.0, 12.0, -110.0]),
+        ];
+        for ([deg, aside_mm, deeper_mm], from) in brought(&camera(), &turned).iter().zip(&turned) {
+            // About the ray, which is not quite the camera's axis.
+            assert!(
+                *deg < 1.0 && *aside_mm < 0.25 && *deeper_mm < 5.0,
+                "{from:?}: {deg} {aside_mm} {deeper_mm}"
+            );
+        }
+        // In pixels that are higher than wide, or wider than high, a turn is not that of the pixels' numbers.
+        for focal in [[1010.0, 730.0], [730.0, 1010.0]] {
+            let camera = Camera::new(SIDE, SIDE, focal, [81.0, 78.5]).expect("valid");
+            let turned = [-35.0, -20.0, 20.0, 35.0].map(|deg| (deg, [0.0; 3]));
+            let left = brought(&camera, &turned);
+            assert!(left.iter().all(|[deg, ..]| *deg < 1.0), "{left:?}");
+        }
+    }
+
+    /// What one move leaves of each of these turns about the view and shifts ([`off`]).
+    fn brought(camera: &Camera, off_by: &[(f64, Vector3)]) -> std::vec::Vec<[f64; 3]> {
         use crate::mesh::OwnedModel;
         let (mut vertices, mut triangles) = (vec![], vec![]);
         crate::mesh::edges::fake::add_box(
@@ -248,16 +275,16 @@ mod tests {
         );
         let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
         let model = OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("valid");
-        let (camera, model_of) = (camera(), model.as_model());
+        let model_of = model.as_model();
         let right = placed([0.0, 0.0, 20.0], [14.0, -19.0, 30.0]);
-        let words = drawn(&model, &camera, &right);
+        let words = drawn(&model, camera, &right);
         let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::from(&mask);
         let mut buffers = RefineBuffers::default();
-        let memory = buffers.borrow(&model_of, &camera);
+        let memory = buffers.borrow(&model_of, camera);
         let mut search = NearbySearch {
             model: &model_of,
-            camera: &camera,
+            camera,
             silhouette: &silhouette,
             wanted: mask.moments(),
             middle: [0.0; 3],
@@ -266,22 +293,12 @@ mod tests {
             drawn: MaskMut::new(&mut memory.drawn[..words_needed(SIDE, SIDE)], SIDE, SIDE)
                 .expect("fits"),
         };
-        for (turn_deg, shift) in [
-            (0.0, [0.0, 0.0, 0.0]),
-            (0.0, [-20.0, 0.0, 0.0]),
-            (0.0, [0.0, 25.0, 0.0]),
-            (0.0, [0.0, 0.0, 90.0]),
-            (-30.0, [9.0, 12.0, -110.0]),
-        ] {
+        let left = off_by.iter().map(|&(turn_deg, shift)| {
             let turn = [0.0, 0.0, radians(turn_deg)];
             let start = about(&[0.0; 3], &right, &turn, shift);
             let (_, moved) = search.moved([0.0; 3], &start).expect("in the frame");
-            let [deg, aside_mm, deeper_mm] = off(&moved, &right, &[0.0; 3]);
-            // About the ray, which is not quite the camera's axis.
-            assert!(
-                deg < 1.0 && aside_mm < 0.25 && deeper_mm < 5.0,
-                "{shift:?}: {deg} {aside_mm} {deeper_mm}"
-            );
-        }
+            off(&moved, &right, &[0.0; 3])
+        });
+        left.collect()
     }
 }
