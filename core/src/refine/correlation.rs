@@ -151,14 +151,15 @@ impl Correlation {
         })
     }
 
-    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
-    /// at least one pixel.
+    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides, at least one pixel, and as much as a
+    /// sample stands for: against a film that is several.
     pub(super) fn stretch_px(&self) -> f32 {
         let [own, rest @ ..] = &self.bins;
+        let least = self.distances.apart_px().max(1.0);
         if *own <= 0.0 {
-            return 1.0;
+            return least;
         }
-        (2.0 * self.distances.width_px() * rest.iter().sum::<f32>() / own).max(1.0)
+        (2.0 * self.distances.width_px() * rest.iter().sum::<f32>() / own).max(least)
     }
 }
 
@@ -185,6 +186,26 @@ mod tests {
         let (raw, _) = Correlation::raw(&border, loss, &Distances::of(&border));
         let taken = Correlation::of(&border, loss, 6.0).bins[0] / raw[0] - 1.0;
         assert!((taken - 1.0 / 3.0).abs() < 1e-6, "{taken}");
+    }
+
+    /// Where one pixel of several is a sample that stands for all of them, what it errs is that of all.
+    #[test]
+    fn there_are_no_more_independent_stretches_than_samples() {
+        for apart in [1u16, 3, 5, 8] {
+            let sample = |k: u16| BorderPixel {
+                column: 8 + apart * k,
+                row: 9,
+                slope: [0, 1],
+                weight: f32::from(apart),
+                // Each by itself, as noise has it.
+                residual: Residual::Px(f32::from(k * 37 % 11) / 11.0 - 5.0 / 11.0).into(),
+                ..BorderPixel::EMPTY
+            };
+            let border: Vec<BorderPixel> = (0..300).map(sample).collect();
+            let correlation = Correlation::of(&border, Loss::Tukey(2.5), 0.0);
+            let stretches = 300.0 * f32::from(apart) / correlation.stretch_px();
+            assert!(stretches <= 300.5, "{stretches} of {apart}");
+        }
     }
 
     /// The same picture in twice as many pixels.

@@ -78,6 +78,11 @@ impl Distances {
         self.width_px
     }
 
+    /// Mean distance between samples, pixels.
+    pub(super) fn apart_px(&self) -> f32 {
+        self.apart_px
+    }
+
     /// One of so many samples is compared with those after it: as many pairs as if bins were as narrow as can be, however long the
     /// outline is.
     pub(super) fn one_in(&self) -> u32 {
