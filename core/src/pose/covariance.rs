@@ -2,7 +2,7 @@
 
 use crate::math::{
     Vector3, add, apply, cross, degrees, deviation, inverse_spd, multiply, multiply_square,
-    rotation_vector, scale, sin_cos, solve_spd, sqrt, subtract, transpose, transpose_square,
+    rotation_vector, scale, sin_cos, solve_spd, subtract, transpose, transpose_square,
 };
 use crate::pose::{EulerPose, Pose};
 
@@ -131,11 +131,11 @@ impl PoseCovariance {
     }
 
     /// Root mean square of the angle between the rotation and the true one, degrees: the length
-    /// of the rotation vector between them.
+    /// of the rotation vector between them. What is not known (NaN) stays so.
     #[must_use]
     pub fn rotation_deg(&self) -> f64 {
         let trace: f64 = (0..3).map(|k| self.matrix[k][k]).sum();
-        degrees(sqrt(trace.max(0.0)))
+        degrees(deviation(trace))
     }
 }
 
@@ -212,7 +212,7 @@ pub(crate) fn congruence(a: &Matrix6, b: &Matrix6) -> Matrix6 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Matrix3, norm};
+    use crate::math::{Matrix3, norm, sqrt};
     use crate::pose::{Quaternion, geodesic_deg};
     use proptest::prelude::*;
 
@@ -264,6 +264,17 @@ mod tests {
             x_rot_deg,
             y_rot_deg,
         })
+    }
+
+    #[test]
+    fn a_rotation_of_which_nothing_is_known_is_not_certain() {
+        let with = |variance: f64| {
+            let mut matrix = [[0.0; 6]; 6];
+            matrix[1][1] = variance;
+            PoseCovariance { matrix }.rotation_deg()
+        };
+        assert!(with(f64::NAN).is_nan() && with(f64::INFINITY) == f64::INFINITY);
+        assert_eq!((with(-1e-20), with(0.0)), (0.0, 0.0));
     }
 
     properties! {
