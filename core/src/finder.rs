@@ -40,6 +40,6 @@ pub use flipped::{FlippedFit, FlippedKnee, FlippedLooks};
 pub use memory::FinderMemory;
 pub use usual::{FilmMisfits, look_beyond};
 pub use verdict::{
-    Away, Decision, Doubt, Limits, OTHER_DEG, Refusal, Verdict, contenders, judge, judge_fit,
-    judge_one,
+    Away, Decision, Doubt, Limits, OTHER_DEG, Refusal, Verdict, contenders, is_determined, judge,
+    judge_fit, judge_one,
 };

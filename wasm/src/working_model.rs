@@ -4,7 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmProfile;
 use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, correct_candidates,
-    find, first_poses, look_around,
+    find, first_poses, is_determined, look_around,
 };
 use fluoropose::follow::{Subject, refined_around};
 use fluoropose::image::grey::Grey;
@@ -188,6 +188,7 @@ impl WorkingModel {
             |covariance| uncertainty(&covariance, &found.film_steps, &refined.pose, &middle);
         Ok(Assessed {
             uncertainty: found.covariance.map(known),
+            determined: is_determined(found.covariance.as_ref()),
             fit: found.fit.in_pixels(side_of(&view)),
         })
     }

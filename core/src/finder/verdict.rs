@@ -13,6 +13,7 @@ use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{Choice, DECISIVE_RATIO, Detour, KNEE_DEG, OpenRival, RivalPose};
 use crate::joint::beside::Beside;
 use crate::math::{Decimal, norm, subtract};
+use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{Fit, MET_WITHIN_PX};
 use crate::shortlist::first_of;
@@ -358,10 +359,7 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
 #[must_use]
 pub fn judge_one(candidates: &[Candidate], index: usize, limits: &Limits) -> Option<Verdict> {
     let one = candidates.get(index)?;
-    let determined = one.refined.is_none()
-        || one
-            .covariance
-            .is_some_and(|of| of.rotation_deg() < OTHER_DEG);
+    let determined = one.refined.is_none() || is_determined(one.covariance.as_ref());
     let alone = judge_fit(&one.fit, determined, limits);
     let other = other_of_a_part(candidates, index).and_then(|other| candidates.get(other));
     Some(alone.or_doubt(other.map(|other| Doubt::open(&one.pose, &other.pose, other.misfit()))))
@@ -383,8 +381,15 @@ fn other_of_a_part(candidates: &[Candidate], chosen: usize) -> Option<usize> {
     others.find_map(|(index, other)| (index != chosen && is_alike(other)).then_some(index))
 }
 
-/// How far a pose is to be trusted by itself, whatever other poses do; `determined` where its uncertainty is known, or was
-/// not asked for.
+/// Whether what was seen determines a refined pose: its uncertainty is known, and its rotation better than [`OTHER_DEG`] (one standard
+/// deviation). Of a part that is round it never is.
+#[must_use]
+pub fn is_determined(covariance: Option<&PoseCovariance>) -> bool {
+    covariance.is_some_and(|of| of.rotation_deg() < OTHER_DEG)
+}
+
+/// How far a pose is to be trusted by itself, whatever other poses do; `determined` where what was seen determines it
+/// ([`is_determined`]), or that was not asked.
 #[must_use]
 pub fn judge_fit(fit: &Fit, determined: bool, limits: &Limits) -> Verdict {
     if let Some(refusal) = refusal(fit, limits) {

@@ -274,7 +274,7 @@ fn fitted(
     let assessed = model.assess(&refined, view)?;
     // How sure a pose is of which a part was given is not known.
     let free = options.locks.is_empty();
-    let determined = !free || assessed.uncertainty.is_some();
+    let determined = !free || assessed.determined;
     let held = Held {
         pose: &refined.pose,
         fit: &assessed.fit,

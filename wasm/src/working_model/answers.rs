@@ -46,8 +46,10 @@ impl Judged {
 
 /// What a target says of a refined pose.
 pub(crate) struct Assessed {
-    /// Nothing where the target does not determine the pose.
+    /// Nothing where the target tells nothing of the pose.
     pub(crate) uncertainty: Option<Uncertainty>,
+    /// Whether the target determines it ([`fluoropose::finder::is_determined`]).
+    pub(crate) determined: bool,
     /// How well the model's outline is met there.
     pub(crate) fit: OutlineFit,
 }
@@ -55,7 +57,7 @@ pub(crate) struct Assessed {
 impl Assessed {
     /// How far the pose is to be trusted by itself.
     pub(crate) fn verdict(&self) -> Verdict {
-        judge_fit(&self.fit, self.uncertainty.is_some(), &Limits::USUAL)
+        judge_fit(&self.fit, self.determined, &Limits::USUAL)
     }
 }
 
@@ -87,5 +89,32 @@ impl From<&Reranked> for Ranked {
             drawn: Some(unmatched),
             ..Self::undrawn(located)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::finder::Doubt;
+
+    /// A round part's outline is met all round, and tells nothing of its turn.
+    #[test]
+    fn a_pose_that_is_not_determined_is_doubtful_however_well_it_fits() {
+        let verdict = |determined| {
+            let fit = OutlineFit {
+                size_px: 150.0,
+                known: 1.0,
+                met: 1.0,
+                ..OutlineFit::default()
+            };
+            let assessed = Assessed {
+                uncertainty: None,
+                determined,
+                fit,
+            };
+            assessed.verdict()
+        };
+        assert_eq!(verdict(true), Verdict::Good);
+        assert_eq!(verdict(false), Verdict::Doubtful(Doubt::Undetermined));
     }
 }

@@ -94,6 +94,20 @@ fn what_lies_beyond_the_frame_is_not_known() {
     assert!(matches!(judged(0.5), Verdict::Doubtful(Doubt::Unknown { known }) if known == 0.4));
 }
 
+/// A covariance may say that next to nothing is known: of a round part it always is there, with any turn about the axis.
+#[test]
+fn a_pose_is_determined_where_its_rotation_is_known() {
+    let known = |deg: f64| {
+        let mut matrix = [[0.0; 6]; 6];
+        (0..6).for_each(|k| matrix[k][k] = 1e-6);
+        matrix[1][1] = crate::math::radians(deg) * crate::math::radians(deg);
+        is_determined(Some(&PoseCovariance { matrix }))
+    };
+    assert!(known(0.5) && known(3.9));
+    assert!(!known(4.1) && !known(104.0) && !known(f64::NAN) && !known(f64::INFINITY));
+    assert!(!is_determined(None));
+}
+
 fn candidate(misfit_px: f64, met: f64) -> Candidate {
     let pose = crate::pose::Pose::IDENTITY;
     let mut refined = crate::refine::Refined::at(pose);

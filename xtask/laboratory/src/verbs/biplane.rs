@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::finder::{Limits, Verdict, judge_fit};
+use fluoropose::finder::{Limits, Verdict, is_determined, judge_fit};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
@@ -120,7 +120,7 @@ fn judge(
     (refined, covariance): &(Refined, Option<PoseCovariance>),
 ) -> Result<(&'static str, String)> {
     let fit = finder.fit_views(views, &refined.pose)?;
-    let verdict = judge_fit(&fit, covariance.is_some(), &Limits::USUAL);
+    let verdict = judge_fit(&fit, is_determined(covariance.as_ref()), &Limits::USUAL);
     let told = (verdict.word(), verdict.to_string());
     if verdict.word() == NONE {
         return Ok(told);
