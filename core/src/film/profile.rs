@@ -104,6 +104,11 @@ impl FilmProfile {
         FIRST_READING + READING_STEP * reading as f64
     }
 
+    /// Whether another is of the same frame and component.
+    pub(crate) fn is_of_frame(&self, other: &Self) -> bool {
+        (self.component, self.frame) == (other.component, other.frame)
+    }
+
     /// How much brighter it is outside than inside, grey values.
     pub(crate) fn contrast(&self) -> f32 {
         let mean = |readings: &[f32]| readings.iter().sum::<f32>() / readings.len() as f32;

@@ -10,6 +10,8 @@ use crate::film::profile::FilmProfile;
 /// A frame whose profiles cost more than this many times the mean of the better half of a component's frames is left out: its
 /// pose may be wrong.
 const COSTLY: f64 = 1.4;
+/// So many frames of a component, spread over all of a film, tell what profiles of the better half cost.
+const COMPARED: usize = 256;
 /// Curvature for each contrast from which on it must be confirmed: an unsharp mask on a linear film looks alike, but not the
 /// same to components of other thickness.
 pub(super) const DOUBTED: f64 = 1.2;
@@ -19,50 +21,61 @@ const AGREE: f64 = 0.3;
 impl Fit<'_> {
     /// Leaves frames out whose profiles are explained worse than those of the others; whether there are any.
     pub(super) fn leave_out_costly(&mut self, at: &Vector) -> bool {
-        let mut any = false;
-        for component in 0..self.components as u8 {
-            let mut costs: Vec<(u16, f64), 256> = Vec::new();
-            for number in 0..self.profiles.len() {
-                let profile = &self.profiles[number];
-                if profile.component != component || costs.is_full() {
-                    continue;
-                }
-                if costs
-                    .last()
-                    .is_none_or(|&(frame, _)| frame != profile.frame)
-                {
-                    let cost = self.cost_of(profile.frame, component, at);
-                    // There is room.
-                    let _ = costs.push((profile.frame, cost));
-                }
-            }
-            let mut sorted: Vec<f64, 256> = costs.iter().map(|&(_, cost)| cost).collect();
-            sorted.sort_unstable_by(f64::total_cmp);
-            let half = &sorted[..sorted.len().div_ceil(2)];
-            let limit = COSTLY * half.iter().sum::<f64>() / half.len().max(1) as f64;
-            for profile in self.profiles.iter_mut() {
-                let costly = |&(frame, cost): &(u16, f64)| frame == profile.frame && cost > limit;
-                if profile.component == component && costs.iter().any(costly) {
-                    profile.used = false;
+        let drawings = Drawings::alone(self, at);
+        let components = 0..self.components as u8;
+        let any = components.map(|component| self.leave_out_costly_of(component, &drawings));
+        // Of each of them, whatever was left out before.
+        any.fold(false, |any, one| any | one)
+    }
+
+    fn leave_out_costly_of(&mut self, component: u8, drawings: &Drawings) -> bool {
+        let frames = self.frames_of(component).count();
+        let every = frames.div_ceil(COMPARED).max(1);
+        let compared = self.frames_of(component).step_by(every);
+        let costs: Vec<f64, COMPARED> = compared
+            .map(|profiles| self.cost_of(profiles, drawings))
+            .collect();
+        let mut sorted = costs.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let half = &sorted[..sorted.len().div_ceil(2)];
+        let limit = COSTLY * half.iter().sum::<f64>() / half.len().max(1) as f64;
+        let (mut any, mut from, mut number) = (false, 0, 0);
+        while let Some(profiles) = self.frame_from(from) {
+            let to = from + profiles.len();
+            if profiles[0].component == component {
+                let known = costs.get(number / every).filter(|_| number % every == 0);
+                let cost = known.copied();
+                if cost.unwrap_or_else(|| self.cost_of(profiles, drawings)) > limit {
+                    let costly = self.profiles[from..to].iter_mut();
+                    costly.for_each(|profile| profile.used = false);
                     any = true;
                 }
+                number += 1;
             }
+            from = to;
         }
         any
     }
 
-    /// The mean cost of the profiles of a frame and component.
-    fn cost_of(&self, frame: u16, component: u8, at: &Vector) -> f64 {
-        let wanted =
-            |profile: &&FilmProfile| profile.frame == frame && profile.component == component;
-        let drawings = Drawings::alone(self, at);
-        let (mut sum, mut count) = (0.0, 0.0f64);
-        for profile in self.profiles.iter().filter(wanted) {
-            let squares = self.explained(profile, &drawings);
-            sum += squares.map_or(UNEXPLAINED, |(explained, _)| self.cost(explained.squares()));
-            count += 1.0;
-        }
-        sum / count.max(1.0)
+    /// The profiles of each frame of a component: they stand together.
+    fn frames_of(&self, component: u8) -> impl Iterator<Item = &[FilmProfile]> {
+        let frames = self.profiles.chunk_by(FilmProfile::is_of_frame);
+        frames.filter(move |profiles| profiles[0].component == component)
+    }
+
+    /// Those of the frame and component that begins at a number.
+    fn frame_from(&self, number: usize) -> Option<&[FilmProfile]> {
+        let rest = self.profiles.get(number..)?;
+        rest.chunk_by(FilmProfile::is_of_frame).next()
+    }
+
+    /// The mean cost of profiles.
+    fn cost_of(&self, profiles: &[FilmProfile], drawings: &Drawings) -> f64 {
+        let cost = |profile: &FilmProfile| {
+            let explained = self.explained(profile, drawings);
+            explained.map_or(UNEXPLAINED, |(explained, _)| self.cost(explained.squares()))
+        };
+        profiles.iter().map(cost).sum::<f64>() / (profiles.len() as f64).max(1.0)
     }
 
     /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike, or one alone tells it

@@ -395,6 +395,31 @@ fn frames_that_cost_more_than_the_better_half_are_left_out_and_no_others() {
     );
 }
 
+/// However late in a film its pose is wrong.
+#[test]
+fn of_a_long_film_too_frames_that_cost_more_are_left_out() {
+    const FRAMES: u16 = 600;
+    let few = &profiles(0, 0.7, logarithmic)[20..22];
+    let mut all: Vec<FilmProfile> = Vec::new();
+    for frame in 0..FRAMES {
+        all.extend(few.iter().map(|&profile| FilmProfile { frame, ..profile }));
+    }
+    let is_wrong = |frame: u16| [5, 256, 301, FRAMES - 1].contains(&frame);
+    for profile in all.iter_mut().filter(|profile| is_wrong(profile.frame)) {
+        for (reading, mean) in profile.mean.iter_mut().enumerate() {
+            *mean += [6.0, -6.0][reading % 2];
+        }
+    }
+    let mut fit = fit(&mut all, false);
+    let mut at = beside();
+    (at[CURVATURE], at[BLUR], at[2]) = (1.3, libm::log(1.1), libm::log(0.7));
+    fit.find_shifts(&at);
+    assert!(fit.leave_out_costly(&at));
+    for profile in &all {
+        assert_eq!(profile.used, !is_wrong(profile.frame), "{}", profile.frame);
+    }
+}
+
 #[test]
 fn deviations_are_as_wide_as_what_is_told_of_the_display() {
     use DisplayKnowledge::{Told, Untold};
