@@ -11,44 +11,65 @@ const ALONG: usize = 12;
 /// Part of a model that lies beyond the frame, by the cells of a cube about it in which it has vertices, of however many a piece of its surface is made;
 /// `pose` is `camera_from_model`.
 pub(crate) fn part_beyond(model: &Model<'_>, camera: &Camera, pose: &Pose) -> f64 {
-    let bounds = model.bounds();
-    if is_ball_within(&bounds, camera, pose) {
-        return 0.0;
+    Frame {
+        camera,
+        beyond: [0; 4],
     }
-    let cells = Cells::new(&bounds);
-    let mut taken = [false; ALONG * ALONG * ALONG];
-    for vertex in model.vertices() {
-        if let Some(taken) = taken.get_mut(cells.of(vertex)) {
-            *taken = true;
+    .part_beyond(model, pose)
+}
+
+/// A frame, of which a camera may see a part.
+pub(super) struct Frame<'c> {
+    pub(super) camera: &'c Camera,
+    /// Pixels of the frame to the left of what the camera sees, above it, to the right and below.
+    pub(super) beyond: [usize; 4],
+}
+
+impl Frame<'_> {
+    /// The same of a frame of which a part is seen: [`part_beyond`].
+    pub(super) fn part_beyond(&self, model: &Model<'_>, pose: &Pose) -> f64 {
+        let bounds = model.bounds();
+        if self.is_ball_within(&bounds, pose) {
+            return 0.0;
         }
+        let cells = Cells::new(&bounds);
+        let mut taken = [false; ALONG * ALONG * ALONG];
+        for vertex in model.vertices() {
+            if let Some(taken) = taken.get_mut(cells.of(vertex)) {
+                *taken = true;
+            }
+        }
+        let (mut beyond, mut all) = (0_u32, 0_u32);
+        for (cell, _) in taken.iter().enumerate().filter(|&(_, &taken)| taken) {
+            all += 1;
+            beyond += u32::from(!self.is_within(&pose.transform(&cells.middle(cell))));
+        }
+        f64::from(beyond) / f64::from(all.max(1))
     }
-    let (mut beyond, mut all) = (0_u32, 0_u32);
-    for (cell, _) in taken.iter().enumerate().filter(|&(_, &taken)| taken) {
-        all += 1;
-        beyond += u32::from(!is_within(camera, &pose.transform(&cells.middle(cell))));
+
+    /// Whether the cube about the ball about a model lies in the frame, so that the model does.
+    fn is_ball_within(&self, bounds: &Bounds, pose: &Pose) -> bool {
+        let [x, y, z] = pose.transform(&bounds.centre);
+        (0..8_u32).all(|corner| {
+            let aside = |axis: u32| match corner & axis {
+                0 => bounds.radius,
+                _ => -bounds.radius,
+            };
+            let place = [x + aside(1), y + aside(2), z + aside(4)];
+            self.is_within(&place)
+        })
     }
-    f64::from(beyond) / f64::from(all.max(1))
-}
 
-/// Whether the cube about the ball about a model lies in the frame, so that the model does.
-fn is_ball_within(bounds: &Bounds, camera: &Camera, pose: &Pose) -> bool {
-    let [x, y, z] = pose.transform(&bounds.centre);
-    (0..8_u32).all(|corner| {
-        let aside = |axis: u32| match corner & axis {
-            0 => bounds.radius,
-            _ => -bounds.radius,
-        };
-        let place = [x + aside(1), y + aside(2), z + aside(4)];
-        is_within(camera, &place)
-    })
-}
-
-/// Whether a place in front of the camera, mm, is in the frame.
-fn is_within(camera: &Camera, place: &Vector3) -> bool {
-    let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
-    camera.project(place).is_some_and(|place| {
-        within(place.column, camera.width()) && within(place.row, camera.height())
-    })
+    /// Whether a place in front of the camera, mm, is in the frame.
+    fn is_within(&self, place: &Vector3) -> bool {
+        let [left, above, right, below] = self.beyond;
+        let within =
+            |at: f64, before: usize, side: usize| (-(before as f64)..side as f64).contains(&at);
+        self.camera.project(place).is_some_and(|place| {
+            within(place.column, left, self.camera.width() + right)
+                && within(place.row, above, self.camera.height() + below)
+        })
+    }
 }
 
 /// The cells of the cube about a model, in 32 bits, which a microcontroller has.

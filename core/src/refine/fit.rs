@@ -1,9 +1,8 @@
 //! How well the model's outline at a pose is met by what was seen.
 
-use super::beyond::part_beyond;
+use super::beyond::Frame;
 use super::border::{BorderPixel, Residual};
-use super::view::Target;
-use crate::camera::Camera;
+use super::view::{CameraView, Target};
 use crate::image::mask::{Mask, MaskError, Word, words_needed};
 use crate::math::sqrt;
 use crate::mesh::{Model, has_knee_size};
@@ -125,14 +124,15 @@ impl FitSums {
     }
 
     /// `pose` is that of the model in the camera's frame.
-    pub(super) fn add_place(&mut self, model: &Model<'_>, camera: &Camera, pose: &Pose) {
+    pub(super) fn add_place(&mut self, model: &Model<'_>, view: &CameraView<'_>, pose: &Pose) {
+        let (camera, beyond) = (view.camera, view.target.beyond());
         let bounds = model.bounds();
         if !has_knee_size(&bounds) {
             self.implausible_width_mm = 2.0 * bounds.radius;
         }
         let middle = pose.transform(&bounds.centre);
         self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
-        self.beyond += part_beyond(model, camera, pose);
+        self.beyond += Frame { camera, beyond }.part_beyond(model, pose);
     }
 
     /// `drawn` is the model as drawn in that view.
@@ -189,5 +189,55 @@ mod tests {
             ..Fit::default()
         };
         assert_eq!(fit.seen(), 0.3);
+    }
+
+    /// Of a long rod, whose cells reach farther beyond it than the part of the frame that holds it.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn in_a_part_of_the_frame_a_model_fits_as_in_all_of_it() {
+        use crate::camera::Camera;
+        use crate::image::crop::Crop;
+        use crate::image::mask::MaskMut;
+        use crate::image::silhouette::Silhouette;
+        use crate::mesh::edges::fake::add_box;
+        use crate::refine::{RefineBuffers, fit_at};
+        use core::ops::Range;
+        use std::vec;
+        use std::vec::Vec;
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        let (low, high) = ([-100.0, -3.0, -3.0], [100.0, 3.0, 3.0]);
+        add_box(low, high, &mut vertices, &mut triangles);
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let (width, height) = (1400, 500);
+        let camera = Camera::new(width, height, [6000.0; 2], [700.0, 250.0]).expect("valid");
+        let pose = Pose {
+            translation: [0.0, 0.0, -1000.0],
+            ..Pose::IDENTITY
+        };
+        let at =
+            |camera: &Camera, columns: Range<usize>, rows: Range<usize>, crop: Option<Crop>| {
+                let size = (camera.width(), camera.height());
+                let mut words = vec![0; words_needed(size.0, size.1)];
+                let mut mask = MaskMut::new(&mut words, size.0, size.1).expect("fits");
+                let ends = [columns.start as i64, columns.end as i64];
+                rows.for_each(|row| mask.fill_span(row, ends[0], ends[1]));
+                let mask = mask.into_mask();
+                let mut silhouette = Silhouette::from(&mask);
+                if let Some(crop) = crop {
+                    silhouette = silhouette.in_crop(&crop).expect("inside");
+                }
+                let mut buffers = RefineBuffers::default();
+                let mut memory = buffers.borrow(&model, camera);
+                let view = CameraView::only(camera, silhouette);
+                fit_at(&model, &[view], &pose, &mut memory).expect("in front")
+            };
+        let (columns, rows) = (98..1302, 232..268);
+        let whole = at(&camera, columns.clone(), rows.clone(), None);
+        assert!(whole.met > 0.99 && whole.beyond == 0.0, "{whole:?}");
+        let crop = Crop::around(columns, rows, Crop::MARGIN, [width, height]).expect("possible");
+        let part = camera.cropped(&crop).expect("possible");
+        let (left, above) = (crop.columns().start, crop.rows().start);
+        let inside = (98 - left..1302 - left, 232 - above..268 - above);
+        assert_eq!(at(&part, inside.0, inside.1, Some(crop)), whole);
     }
 }

@@ -160,7 +160,7 @@ pub(super) fn observe(
         });
         sums.add_samples(border, stage.range);
         sums.add_areas(&view.target, memory.drawn)?;
-        sums.add_place(model, view.camera, &seen);
+        sums.add_place(model, view, &seen);
     }
     Ok(sums.fit())
 }

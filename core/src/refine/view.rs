@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::film::FilmModel;
+use crate::image::crop::Crop;
 use crate::image::display::DisplayCurve;
 use crate::image::grey::Grey;
 use crate::image::mask::Mask;
@@ -73,13 +74,19 @@ impl Target<'_> {
         }
     }
 
-    /// Columns and rows of the frame that come before those of the part of it that is held.
-    pub(super) fn before(&self) -> [usize; 2] {
+    /// Pixels of the frame to the left of the part of it that is held, above it, to the right and below.
+    pub(super) fn beyond(&self) -> [usize; 4] {
         let crop = match self {
             Self::Silhouette(silhouette) => silhouette.crop(),
             Self::Image(_) => None,
         };
-        crop.map_or([0; 2], |crop| [crop.columns().start, crop.rows().start])
+        crop.map_or([0; 4], Crop::beyond)
+    }
+
+    /// Columns and rows of the frame that come before those of the part of it that is held.
+    pub(super) fn before(&self) -> [usize; 2] {
+        let [left, above, ..] = self.beyond();
+        [left, above]
     }
 
     /// Columns and rows.
