@@ -74,6 +74,15 @@ impl KneeMiddles {
             .collect()
     }
 
+    /// In which frames the tray lies farther off than mirrored pictures leave it: there a pose that is good by itself is not doubtful for one that is
+    /// not.
+    #[wasm_bindgen(js_name = beyondFlipping)]
+    pub fn beyond_flipping(&self, frames: &[f64]) -> Vec<u8> {
+        let told = self.judged(frames).into_iter();
+        let is_beyond = |told: Option<Beside>| told.is_some_and(|told| told.is_beyond_flipping());
+        told.map(|told| u8::from(is_beyond(told))).collect()
+    }
+
     /// Begins to look at frames, given as `told` takes them, as if they were flipped; what was seen before is forgotten.
     #[wasm_bindgen(js_name = beginFlipped)]
     pub fn begin_flipped(&mut self, frames: &[f64]) {

@@ -1,10 +1,15 @@
 //! Which of several refined poses is chosen, and why, in words.
 
-use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
+use fluoropose::finder::choice::{
+    Choice, ChoiceContext, Counterpart, OpenRival, Reason, RivalPose, choose,
+};
 use fluoropose::finder::{Away, Doubt, Found, Limits, Verdict, contenders, judge};
-use fluoropose::pose::Pose;
+use fluoropose::math::Vector3;
+use fluoropose::pose::covariance::PoseCovariance;
+use fluoropose::pose::{Pose, geodesic_deg};
 use wasm_bindgen::prelude::*;
 
+use crate::found::{UPPER, Uncertainty, covariance_of};
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
 /// What is known round a frame's component: the other component in the frame, and the same one in neighbouring frames.
@@ -247,12 +252,22 @@ impl Chosen {
 }
 
 impl Chosen {
-    pub(crate) fn among(candidates: &[RivalPose], around: &Surroundings) -> Option<Self> {
+    /// `is_another` says of the chosen one and another whether they are two, by the plus-minus of the first.
+    pub(crate) fn among(
+        candidates: &[RivalPose],
+        around: &Surroundings,
+        is_another: impl Fn(usize, usize) -> bool,
+    ) -> Option<Self> {
         let choice = around.choose(candidates)?;
+        let other = |open: &OpenRival| is_another(choice.index, open.index);
+        let told = Choice {
+            open: choice.open.filter(other),
+            ..choice
+        };
         Some(Self {
             choice,
             sentence: around.explain(&choice),
-            doubt: doubt_among(candidates, &choice),
+            doubt: doubt_among(candidates, &told),
             verdict: None,
         })
     }
@@ -267,6 +282,14 @@ impl Chosen {
             doubt: None,
             verdict: Some(verdict),
         })
+    }
+
+    /// The same choice where the pose that is open is no other one, by the plus-minus of the chosen.
+    pub(crate) fn without_open(self) -> Self {
+        Self {
+            doubt: Doubt::no_knee(&self.choice),
+            ..self
+        }
     }
 
     /// The same choice with a verdict: that on the chosen pose alone, and what other poses do.
@@ -301,7 +324,8 @@ fn open_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
 }
 
 /// Chooses among refined poses (six numbers each, one after another) with their misfits in pixels, when more has become
-/// known round them; nothing where there is none.
+/// known round them; nothing where there is none. `uncertainties` are those of the poses as they were handed out, NaN where there is none, and
+/// `middle` that of the model's box, mm, or nothing where the model is not there.
 ///
 /// # Errors
 /// A sentence where a pose is not six finite numbers.
@@ -309,6 +333,8 @@ fn open_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
 pub fn choose_pose(
     poses: &[f64],
     misfits: &[f64],
+    uncertainties: &[f64],
+    middle: &[f64],
     around: &Surroundings,
 ) -> Result<Option<Chosen>, JsError> {
     let candidates = poses
@@ -321,7 +347,35 @@ pub fn choose_pose(
             })
         })
         .collect::<Result<Vec<_>, JsError>>()?;
-    Ok(Chosen::among(&candidates, around))
+    let middle = <[f64; 3]>::try_from(middle).ok();
+    let is_another = |chosen: usize, other: usize| {
+        let known = uncertainties.get(size_of::<Uncertainty>() / 8 * chosen + 6..);
+        let upper = known.and_then(<[f64]>::first_chunk);
+        let is_known = |upper: &&[f64; UPPER]| upper.iter().all(|x| x.is_finite());
+        let covariance = upper.filter(is_known).map(covariance_of);
+        match (
+            middle,
+            covariance,
+            candidates.get(chosen),
+            candidates.get(other),
+        ) {
+            (Some(middle), Some(covariance), Some(own), Some(other)) => {
+                tells_apart(&covariance, [&own.pose, &other.pose], &middle)
+            }
+            _ => true,
+        }
+    };
+    Ok(Chosen::among(&candidates, around, is_another))
+}
+
+/// Whether two poses are two, by the covariance of the first.
+pub(crate) fn tells_apart(
+    covariance: &PoseCovariance,
+    [own, other]: [&Pose; 2],
+    middle: &Vector3,
+) -> bool {
+    let [depth, others] = [own, other].map(|pose| pose.transform(middle)[2]);
+    covariance.tells_apart(geodesic_deg(&own.rotation, &other.rotation), others - depth)
 }
 
 #[cfg(test)]
@@ -348,7 +402,7 @@ mod tests {
     fn two_equal_poses_are_undecided_until_a_neighbour_is_known() {
         let both = [turned(4.0), turned(-4.0)];
         let mut around = Surroundings::default();
-        let chosen = Chosen::among(&both, &around).unwrap();
+        let chosen = Chosen::among(&both, &around, |_, _| true).unwrap();
         assert!(
             !chosen.decided()
                 && chosen
@@ -361,13 +415,44 @@ mod tests {
             "{doubt}"
         );
         around.neighbours.push(turned(-3.5).pose);
-        let chosen = Chosen::among(&both, &around).unwrap();
+        let chosen = Chosen::among(&both, &around, |_, _| true).unwrap();
         assert_eq!((chosen.index(), chosen.decided()), (1, true));
         assert_eq!(chosen.doubt(), None);
         assert_eq!(
             chosen.sentence,
             "It goes with the neighbouring frames: turned 0.5° from them, the other pose 7.5°."
         );
+    }
+
+    #[test]
+    fn what_the_plus_minus_holds_is_no_doubt_wherever_the_file_has_its_origin() {
+        let origin = [900.0, 0.0, 0.0];
+        let told = |apart_deg: f64, farther_mm: f64, middle: &[f64]| {
+            let moved = [turned(0.0), turned(apart_deg)];
+            let mut numbers = Vec::new();
+            for (at, one) in moved.iter().enumerate() {
+                let mut pose = one.pose;
+                pose.translation = [0.0, 0.0, -1000.0 - farther_mm * at as f64];
+                // The model's middle lies there.
+                let arm = pose.transform(&origin);
+                let shift = fluoropose::math::subtract(&arm, &pose.translation);
+                pose.translation = fluoropose::math::subtract(&pose.translation, &shift);
+                numbers.extend(fluoropose_page::pose_numbers::to_numbers(&pose.into()));
+            }
+            let mut matrix = [[0.0; 6]; 6];
+            (0..3).for_each(|k| matrix[k][k] = 0.6f64.to_radians().powi(2));
+            matrix[5][5] = 9.0;
+            let of = PoseCovariance { matrix };
+            let one = crate::found::uncertainty(&of, &[[0.0; 6]; 2], &moved[0].pose, &origin);
+            let all = [one, [f64::NAN; 39]].concat();
+            let around = Surroundings::default();
+            let chosen = choose_pose(&numbers, &[0.3, 0.31], &all, middle, &around);
+            chosen.unwrap().unwrap().doubt()
+        };
+        assert_eq!(told(2.0, 5.9, &origin), None);
+        assert!(told(2.2, 0.0, &origin).is_some() && told(0.1, 6.1, &origin).is_some());
+        // Without the model nobody knows how far its middle moved.
+        assert!(told(0.1, 0.1, &[]).is_some());
     }
 
     #[test]
@@ -417,7 +502,7 @@ mod tests {
             counterpart: Some(Counterpart::Femur(turned(4.0).pose)),
             ..Surroundings::default()
         };
-        let chosen = Chosen::among(&both, &around).unwrap();
+        let chosen = Chosen::among(&both, &around, |_, _| true).unwrap();
         assert_eq!(chosen.index(), 0);
         assert!(
             chosen
@@ -443,7 +528,7 @@ mod tests {
             ..Surroundings::default()
         };
         around.set_axes(&axes).ok().unwrap();
-        let chosen = Chosen::among(&both, &around).unwrap();
+        let chosen = Chosen::among(&both, &around, |_, _| true).unwrap();
         assert_eq!(chosen.index(), 1);
         let tilt = "It goes with the femur: its coronal tilt against it is 0.0°";
         assert!(chosen.sentence.starts_with(tilt), "{}", chosen.sentence);

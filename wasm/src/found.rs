@@ -59,6 +59,15 @@ pub(crate) fn uncertainty(
     all
 }
 
+impl Candidate {
+    /// Of the pose, where it is known.
+    pub(crate) fn covariance(&self) -> Option<PoseCovariance> {
+        self.uncertainty.as_ref()?[6..]
+            .first_chunk()
+            .map(covariance_of)
+    }
+}
+
 /// The covariance of which this is the upper half.
 pub(crate) fn covariance_of(upper: &[f64; UPPER]) -> PoseCovariance {
     let mut matrix = [[0.0; 6]; 6];

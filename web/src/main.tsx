@@ -79,7 +79,7 @@ async function start(root: HTMLElement): Promise<void> {
   });
   const poser = new Poser(services.store, matcher);
   new Anatomist(services, matcher);
-  new Chooser(services.store, matcher);
+  new Chooser(services, matcher);
   new HandJudge(services, matcher);
   const edges = new EdgeWatch(services, matcher);
   watchLater(services, matcher);

@@ -349,10 +349,20 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
     let chosen = candidates.get(choice.index)?;
     let open = choice.open.and_then(|OpenRival { index, .. }| {
         let other = candidates.get(index)?;
-        Some(Doubt::open(&chosen.pose, &other.pose, other.misfit()))
+        is_another(chosen, other).then(|| Doubt::open(&chosen.pose, &other.pose, other.misfit()))
     });
     let alone = judge_one(candidates, choice.index, limits)?;
     Some(alone.or_doubt(Doubt::no_knee(choice)).or_doubt(open))
+}
+
+/// Whether two poses are two: what the plus-minus of the chosen one holds is said with that, and is no reason to doubt it.
+fn is_another(chosen: &Candidate, other: &Candidate) -> bool {
+    let depths = [chosen, other].map(|one| one.fit.depth_mm);
+    let Some(covariance) = chosen.covariance.filter(|_| !depths.contains(&0.0)) else {
+        return true;
+    };
+    let turn = geodesic_deg(&chosen.pose.rotation, &other.pose.rotation);
+    covariance.tells_apart(turn, depths[1] - depths[0])
 }
 
 /// The same before anything is chosen: how far one of the candidates is to be trusted at most. `None` where there are not so many.

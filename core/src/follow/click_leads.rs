@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn a_place_a_tenth_of_its_size_beside_a_silhouette_is_held() {
         let mut words = [0; words_needed(48, 40)];
-        let mut mask = MaskMut::new(&mut words, 48, 40).unwrap();
+        let mut mask = MaskMut::new(&mut words, 48, 40).expect("fits");
         (10..30).for_each(|row| mask.fill_span(row, 15, 35));
         let mask = mask.as_mask();
         for (place, held) in [
@@ -150,7 +150,7 @@ mod tests {
         ] {
             assert_eq!(holds_place(&mask, place), held, "{place:?}");
         }
-        let empty = Mask::new(&[0; words_needed(48, 40)], 48, 40).unwrap();
+        let empty = Mask::new(&[0; words_needed(48, 40)], 48, 40).expect("fits");
         assert!(!holds_place(&empty, [20.0, 20.0]));
     }
 

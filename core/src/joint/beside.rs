@@ -192,6 +192,23 @@ impl Middles {
     }
 }
 
+impl Beside {
+    /// What of it speaks against a pose that `is_good` by itself, beside the other component's, which is or is not. The tray may lie farther off than
+    /// it is wide, which no mirrored picture does: where one of both poses is doubtful for a reason of its own, that one is astray, and nothing is told
+    /// of the other.
+    #[must_use]
+    pub fn against(self, is_good: bool, other_is_good: bool) -> Option<Self> {
+        let other_is_astray = self.is_beyond_flipping() && is_good && !other_is_good;
+        (!other_is_astray).then_some(self)
+    }
+
+    /// Whether the tray lies farther off than mirrored pictures leave it.
+    #[must_use]
+    pub fn is_beyond_flipping(&self) -> bool {
+        self.mm > WHOLE_TRAY * self.most_mm && self.flipped.is_none()
+    }
+}
+
 impl fmt::Display for Beside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
@@ -214,7 +231,7 @@ impl fmt::Display for Beside {
         } else {
             f.write_str("both components fit better with the picture flipped: ")?;
         }
-        if mm > WHOLE_TRAY * most_mm && flipped.is_none() {
+        if self.is_beyond_flipping() {
             return f.write_str(
                 "that is farther than the tray is wide, which no mirrored picture does: is a model in another unit, or are poses or models those of the other component?",
             );

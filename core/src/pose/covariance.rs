@@ -130,6 +130,15 @@ impl PoseCovariance {
         Some(squared <= squared_radius)
     }
 
+    /// Whether another pose is told from this one by what is beyond twice the standard deviations: it is turned by so much, degrees, or its middle
+    /// lies so much farther, mm. A pose that is not is no other one, as noise has it.
+    #[must_use]
+    pub fn tells_apart(&self, turn_deg: f64, farther_mm: f64) -> bool {
+        let depth = deviation(self.matrix[5][5]);
+        let is_one = turn_deg <= 2.0 * self.rotation_deg() && farther_mm.abs() <= 2.0 * depth;
+        !is_one
+    }
+
     /// Root mean square of the angle between the rotation and the true one, degrees: the length
     /// of the rotation vector between them. What is not known (NaN) stays so.
     #[must_use]

@@ -34,6 +34,8 @@ pub struct Fit {
     /// How far behind the detector the model's middle lies, mm, where the camera knows its detector: a part cannot be there, so that
     /// the calibration is of other frames or the model in another unit.
     pub behind_mm: f64,
+    /// How far the model's middle lies from the focus along the view, mm; 0 of several views, where it is not one number.
+    pub depth_mm: f64,
     /// How wide the model is, mm, where that is no size of a knee's component, as of a file in another unit; 0 of others.
     pub implausible_width_mm: f64,
     /// Side of the squares of pixels in which the frame was looked at, whose lengths are handed out in pixels ([`Self::in_pixels`]): what
@@ -84,6 +86,7 @@ pub(super) struct FitSums {
     beyond: f64,
     views: f64,
     behind_mm: f64,
+    depth_mm: f64,
     implausible_width_mm: f64,
 }
 
@@ -132,6 +135,7 @@ impl FitSums {
         }
         let middle = pose.transform(&bounds.centre);
         self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
+        self.depth_mm = -middle[2];
         self.beyond += Frame { camera, beyond }.part_beyond(model, pose);
     }
 
@@ -171,6 +175,11 @@ impl FitSums {
             },
             size_px: sqrt(part(self.area, self.views)),
             behind_mm: self.behind_mm,
+            depth_mm: if self.views == 1.0 {
+                self.depth_mm
+            } else {
+                0.0
+            },
             implausible_width_mm: self.implausible_width_mm,
             square_px: 1,
         }

@@ -22,9 +22,9 @@ use super::answer::{OneClickAnswer, told};
 use super::from_here::{hide_model, model_of};
 use super::on_frame::{OnFrame, Seen, misfit, outline_of};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
-use crate::choice::{Chosen, Surroundings};
+use crate::choice::{Chosen, Surroundings, tells_apart};
 use crate::film::film_model;
-use crate::found::Match;
+use crate::found::{Candidate, Match};
 use crate::hidden::{hide, with_mask};
 use crate::shape::Shape;
 use crate::squares::of_pixels;
@@ -305,7 +305,7 @@ impl OneClick {
         let mut answers = matcher.in_squares(found.collect(), &seen)?;
         let among = |answers: &[OnFrame]| {
             let contenders: Vec<Contender> = answers.iter().map(contender).collect();
-            Chosen::among(&contenders, around)
+            Chosen::among(&contenders, around, |_, _| true)
                 .ok_or_else(|| JsError::new("The first outline is not worked out yet"))
         };
         let mut chosen = among(&answers)?;
@@ -331,7 +331,17 @@ impl OneClick {
             candidates.push(candidate);
         }
         let share = answer.supports.first().copied().unwrap_or(0.0);
-        answer.sentence = told(share, chosen.open().is_some());
+        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
+        let covariance = candidates.first().and_then(Candidate::covariance);
+        let is_another = |open: usize| {
+            let poses = [chosen.index(), open].map(|at| &answers[at].refined.pose);
+            covariance.is_none_or(|of| tells_apart(&of, poses, &middle))
+        };
+        let is_open = chosen.open().is_some_and(is_another);
+        if !is_open {
+            chosen = chosen.without_open();
+        }
+        answer.sentence = told(share, is_open);
         let alone = candidates.first().and_then(|first| first.verdict);
         answer.matched = Some(Match {
             candidates,

@@ -8,7 +8,8 @@ import { type Candidate, type Cell, cellOf, isRefined, type Posed, type Verdict 
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Choice, Surroundings } from '../workers/protocol/match';
-import { sentenceOf } from './services';
+import { middleOf } from '../geometry/mesh_middle';
+import { sentenceOf, type Services } from './services';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
 
@@ -25,13 +26,15 @@ interface Open {
  */
 export class Chooser {
   readonly #store: Store;
+  readonly #studio: Services['studio'];
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   /** What was known around a result when its choice was last made. */
   readonly #knownThen = new WeakMap<readonly Candidate[], string>();
   #busy = false;
 
-  constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+  constructor({ store, studio }: Pick<Services, 'store' | 'studio'>, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#store = store;
+    this.#studio = studio;
     this.#worker = worker;
     store.subscribe(() => void this.#next());
   }
@@ -44,8 +47,10 @@ export class Chooser {
     this.#knownThen.set(open.result.candidates, JSON.stringify(open.around));
     try {
       const { place, result, around } = open;
-      const candidates = result.candidates.map(({ pose, residual, judged }) => ({ pose, residual: judged?.misfit ?? residual ?? NaN }));
-      const choice = await this.#worker.call('choose', { component: place.component, candidates, around });
+      const { component } = place;
+      const candidates = result.candidates.map(({ pose, residual, deviations, judged }) => ({ pose, deviations, residual: judged?.misfit ?? residual ?? NaN }));
+      const mesh = this.#studio.meshOf(this.#store.doc.components[component].model?.sha256 ?? '');
+      const choice = await this.#worker.call('choose', { component, candidates, middle: mesh && middleOf(mesh), around });
       if (choice) this.#apply(open, choice);
     } catch (error) {
       if (!(error instanceof Aborted)) this.#store.say('error', texts.said.noChoice(sentenceOf(error)));

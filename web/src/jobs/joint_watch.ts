@@ -6,7 +6,7 @@ import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES } from '../terms/component';
 import { asSentence } from '../texts/sentences';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { JointPart, KneeFilm, LyingPose } from '../workers/protocol/joint';
+import type { JointPart, KneeFilm, LyingBeside, LyingPose } from '../workers/protocol/joint';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { frameAt } from './beside_poses';
 import type { Services } from './services';
@@ -110,11 +110,11 @@ export class JointWatch {
   }
 
   /** What was told of poses that have changed meanwhile is not taken: they are asked about next. */
-  #take(told: readonly (string | null)[]): void {
+  #take(told: readonly (LyingBeside | null)[]): void {
     const { store } = this.#services;
     if (!alike(pairsOf(store.doc), this.#asked.pairs)) return;
     store.amend((doc) => withAsides(doc, told));
-    const first = told.find((sentence) => sentence !== null) ?? this.#toldBefore();
+    const first = told.find((one) => one !== null)?.sentence ?? this.#toldBefore();
     this.#finding = first === null ? null : { models: this.#asked.models, sentence: first };
     this.#keepFinding();
     if (this.#sayInstead(first)) return;

@@ -38,7 +38,7 @@ function bench(doubt: string | null = null) {
     asked.push(input);
     return { index: 1, decided: true, reason: 'By the coronal tilt.', doubt };
   };
-  new Chooser(store, { call } as unknown as ConstructorParameters<typeof Chooser>[1]);
+  new Chooser({ store, studio: { meshOf: () => null } as never }, { call } as unknown as ConstructorParameters<typeof Chooser>[1]);
   const frame = (id: string) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 });
   store.perform(addFrames(['a', 'b', 'c'].map(frame)));
   for (const component of COMPONENT_NAMES) store.perform(setAxes(component, AXES[component]));

@@ -16,8 +16,8 @@ type Asked = JointProtocol['lyingBeside']['input'];
 
 const AXES: Axes = { directions: directionsFromWords('x y z') as Directions, from: 'shape', told: 'all' };
 
-function posed(z: number): Posed {
-  const judged = { misfit: 0.4, verdict: { word: 'good', because: 'it fits' } } as const;
+function posed(z: number, word: 'good' | 'doubtful' = 'good'): Posed {
+  const judged = { misfit: 0.4, verdict: { word, because: 'it fits' } } as const;
   const candidate: Candidate = { pose: { x: 0, y: 0, z, zRot: 0, xRot: 0, yRot: 0 }, unmatched: 1, drawn: 1, residual: 0.3, deviations: null, judged };
   return { kind: 'posed', from: 'outline', origin: 'k', candidates: [candidate], chosen: 0, reason: null, decided: true, verdict: judged.verdict };
 }
@@ -28,7 +28,11 @@ function bench() {
   const asked: Asked[] = [];
   const call = async (_: string, input: Asked) => {
     asked.push(input);
-    return input.frames.map(({ femur, tibia }) => (femur && tibia && Math.abs(femur.pose.z - tibia.pose.z) > 20 ? (tibia.pose.z < -1040 ? 'are the pictures mirrored, by more?' : 'are the pictures mirrored?') : null));
+    return input.frames.map(({ femur, tibia }) => {
+      if (!femur || !tibia || Math.abs(femur.pose.z - tibia.pose.z) <= 20) return null;
+      const isBeyondFlipping = tibia.pose.z < -2000;
+      return { sentence: isBeyondFlipping ? 'farther than the tray is wide' : tibia.pose.z < -1040 ? 'are the pictures mirrored, by more?' : 'are the pictures mirrored?', isBeyondFlipping };
+    });
   };
   const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }) };
   new JointWatch({ store, studio } as unknown as ConstructorParameters<typeof JointWatch>[0], { call } as unknown as ConstructorParameters<typeof JointWatch>[1]);
@@ -57,6 +61,20 @@ describe('joint watch', () => {
     await vi.waitFor(() => expect(word('a', 'femur')).toBe('good'));
     expect(cellOf(store.doc, 'a', 'femur').result).not.toHaveProperty('aside');
     expect(store.ui.notice).toBeNull();
+  });
+
+  it('makes no good pose doubtful for one that is astray and doubtful by itself, farther off than mirrored pictures leave it', async () => {
+    const { store, put, word } = bench();
+    put('a', 'femur', posed(-1000));
+    put('a', 'tibia', posed(-3000, 'doubtful'));
+    put('b', 'femur', posed(-1000));
+    put('b', 'tibia', posed(-3000));
+    put('c', 'femur', posed(-1000, 'doubtful'));
+    put('c', 'tibia', posed(-1030));
+    await vi.waitFor(() => expect(COMPONENT_NAMES.map((component) => word('b', component))).toEqual(['doubtful', 'doubtful']));
+    const asides = ['a', 'b', 'c'].map((id) => COMPONENT_NAMES.map((component) => 'aside' in cellOf(store.doc, id, component).result!));
+    expect(asides).toEqual([[false, true], [true, true], [true, true]]);
+    expect(word('a', 'femur')).toBe('good');
   });
 
   it('does not leave it said that a pose is good, and says it behind what following a film came to', async () => {
@@ -146,7 +164,7 @@ describe('a film that is looked at as if it were flipped', () => {
       if (name === 'beginFlipped') return { component: 'femur', frame: 0 };
       if (name === 'lookFlipped') return (seen++, null);
       const { frames } = input as Asked;
-      return frames.map(({ femur, tibia }) => (femur && tibia && seen > 0 ? 'both fit better flipped: are the pictures mirrored?' : null));
+      return frames.map(({ femur, tibia }) => (femur && tibia && seen > 0 ? { sentence: 'both fit better flipped: are the pictures mirrored?', isBeyondFlipping: false } : null));
     };
     const framePixels = async () => ({ pixels: new Uint8Array(4), width: 2, height: 2, covered: new Uint32Array() });
     const studio = { meshOf: () => ({ vertices: new Float32Array(), triangles: new Uint32Array() }), framePixels };

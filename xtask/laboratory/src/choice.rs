@@ -7,6 +7,6 @@ mod reasons;
 pub mod report;
 
 pub use decide::{Decision, Known, decide};
-pub use mirrored::{doubt_mirrored, fit_flipped};
+pub use mirrored::{are_good, doubt_mirrored, fit_flipped};
 pub use posed::{Beside, Posed, Posing, uncertain};
 pub use reasons::Reasons;

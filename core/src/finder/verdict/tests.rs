@@ -135,6 +135,40 @@ fn known(one: &mut Candidate) {
     one.covariance = PoseCovariance::from_information(&information);
 }
 
+/// Twice the standard deviations of the chosen pose hold what is no other pose; depth is known by one view alone.
+#[test]
+fn what_the_plus_minus_holds_is_no_other_pose() {
+    let judged = |(turn_deg, farther_mm): (f64, f64), depth_mm: f64| {
+        let mut all = [candidate(0.1, 1.0), candidate(0.1, 1.0)];
+        let mut matrix = [[0.0; 6]; 6];
+        (0..3).for_each(|k| matrix[k][k] = radians(0.6) * radians(0.6));
+        matrix[5][5] = 9.0;
+        all[0].covariance = Some(PoseCovariance { matrix });
+        let turn = crate::math::rotation_by(&[0.0, radians(turn_deg), 0.0]);
+        all[1].pose.rotation = turn;
+        all[0].fit.depth_mm = depth_mm;
+        all[1].fit.depth_mm = depth_mm + farther_mm;
+        let open = Some(OpenRival {
+            index: 1,
+            chosen_px: 0.1,
+            other_px: 0.1,
+        });
+        let reason = super::super::choice::Reason::Only;
+        let choice = Choice {
+            index: 0,
+            reason,
+            open,
+            no_knee_deg: None,
+        };
+        judge(&all, &choice, &Limits::USUAL) == Some(Verdict::Good)
+    };
+    // 0.6 degrees about each of three axes are 1.04 as a whole.
+    assert!(judged((2.0, 5.9), 1000.0) && judged((2.0, -5.9), 1000.0));
+    assert!(!judged((2.1, 0.0), 1000.0));
+    assert!(!judged((0.0, 6.1), 1000.0) && !judged((0.0, -6.1), 1000.0));
+    assert!(!judged((1.0, 0.0), 0.0));
+}
+
 #[test]
 fn a_refined_pose_without_a_covariance_is_undetermined_and_another_that_fits_leaves_it_open() {
     let judged = |change: fn(&mut Candidate), open: Option<usize>| {

@@ -286,3 +286,23 @@ fn both_depths_together_must_be_known_to_what_a_knee_allows() {
         [false, false, true, true]
     );
 }
+
+#[test]
+fn farther_off_than_a_mirror_leaves_it_the_pose_that_is_doubtful_by_itself_is_astray() {
+    let (middles, most_mm) = middles();
+    let both = [true, false].map(|own| [true, false].map(|other| (own, other)));
+    let apart = [5.9, 6.1].map(|times| times * most_mm);
+    let [near, far] = apart.map(|mm| told(&middles, &[mm])[0].expect("beside"));
+    for (own, other) in both.concat() {
+        assert_eq!(near.against(own, other), Some(near));
+        let left = far.against(own, other);
+        assert_eq!(left.is_none(), own && !other, "{own} {other}");
+    }
+    let flipped = Some(Flipped {
+        mm: 1.0,
+        times: 1.5,
+        is_better: true,
+    });
+    let mirrored = Beside { flipped, ..far };
+    assert_eq!(mirrored.against(true, false), Some(mirrored));
+}

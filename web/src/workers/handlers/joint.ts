@@ -39,7 +39,9 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
     },
     lyingBeside: async (film) => {
       await ready;
-      return middlesOf(film).told(lyingNumbers(film)) as (string | null)[];
+      const [knee, frames] = [middlesOf(film), lyingNumbers(film)];
+      const isBeyond = knee.beyondFlipping(frames);
+      return (knee.told(frames) as (string | null)[]).map((sentence, frame) => (sentence === null ? null : { sentence, isBeyondFlipping: isBeyond[frame] === 1 }));
     },
     beginFlipped: async (film) => {
       await ready;

@@ -2,7 +2,7 @@ import { calibrationText, cameraDoubts, checkLibrary, choosePose, componentBySha
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
-import { poseArray, poseFrom, posesArray, uncertaintyFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, posesArray, uncertaintyArray, uncertaintyFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
 import type { DistortionInput } from '../protocol/camera';
@@ -76,10 +76,11 @@ serve<PoseProtocol>({
     ),
   converge: ({ start, ...input }) =>
     withTraced(input, (matcher, traced) => stepsOf(matcher.convergence(traced, Float64Array.from(poseArray(start))))),
-  choose: async ({ component, candidates, around }) => {
+  choose: async ({ component, candidates, middle, around }) => {
     await ready;
     const { poses, residuals } = flattened(candidates);
-    const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
+    const uncertainties = Float64Array.from(candidates.flatMap(({ deviations }) => uncertaintyArray(deviations)));
+    const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, uncertainties, Float64Array.from(middle ?? []), raw));
     if (!chosen) return null;
     const { index, decided, sentence: reason, doubt = null } = chosen;
     chosen.free();

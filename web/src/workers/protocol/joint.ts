@@ -93,6 +93,12 @@ export interface FlippedLook {
   readonly frame: number;
 }
 
+export interface LyingBeside {
+  readonly sentence: string;
+  /** Farther off than mirrored pictures leave a tray: there a pose that is good by itself is not doubtful for one that is not. */
+  readonly isBeyondFlipping: boolean;
+}
+
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
@@ -103,7 +109,7 @@ export interface JointProtocol {
   /** The figure of four panels as PDF, the same as the command line's. Throws while no joint is open. */
   figurePdf: { input: PublishedFilm; output: Uint8Array<ArrayBuffer>; progress: never };
   /** What is told of each frame of a film whose components lie beside each other as in no knee, without its full stop; null where nothing is. */
-  lyingBeside: { input: KneeFilm; output: readonly (string | null)[]; progress: never };
+  lyingBeside: { input: KneeFilm; output: readonly (LyingBeside | null)[]; progress: never };
   /** Begins to look at some of a film's frames as if they were flipped left to right; gives what is to be looked at first, null where nothing is. What was seen counts for `lyingBeside`. */
   beginFlipped: { input: KneeFilm; output: FlippedLook | null; progress: never };
   /** Looks at the frame that was asked for; gives the next. */

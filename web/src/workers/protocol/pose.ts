@@ -1,6 +1,7 @@
 import type { Directions } from '../../geometry/axes';
 import type { Axes } from '../../document/types';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { Vector } from '../../geometry/pose_motion';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { CameraInput } from './camera';
 import type { HandProtocol } from './by_hand';
@@ -54,7 +55,9 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   choose: {
     input: {
       component: ComponentName;
-      candidates: readonly Refined[];
+      candidates: readonly (Refined & { readonly deviations: Uncertainty | null })[];
+      /** Of the component's model, in its file's axes, mm; null where that is not there. */
+      middle: Vector | null;
       around: Surroundings;
     };
     output: Choice | null;

@@ -8,18 +8,36 @@ use rayon::prelude::*;
 
 use super::decide::Decision;
 
-/// Doubts poses of a component that lies beside the other as in no knee, by what is told of each frame.
-pub fn doubt_mirrored(decisions: &mut [Option<Decision>], told: &[Option<Beside>]) {
-    for (decision, told) in decisions.iter_mut().zip(told) {
-        if let (Some(decision), Some(told)) = (decision, told) {
-            let doubt = Doubt::Mirrored(*told);
-            decision.verdict = match decision.verdict {
-                // It explains any other doubt.
-                Verdict::Doubtful(_) if told.of_film => Verdict::Doubtful(doubt),
-                verdict => verdict.or_doubt(Some(doubt)),
-            };
-        }
+/// Doubts poses of a component that lies beside the other as in no knee, by what is told of each frame; `others` says of which frames the other
+/// one's pose is good by itself.
+pub fn doubt_mirrored(
+    decisions: &mut [Option<Decision>],
+    others: &[bool],
+    told: &[Option<Beside>],
+) {
+    for ((decision, told), other) in decisions.iter_mut().zip(told).zip(others) {
+        let (Some(decision), Some(told)) = (decision, told) else {
+            continue;
+        };
+        let Some(told) = told.against(decision.verdict == Verdict::Good, *other) else {
+            continue;
+        };
+        let doubt = Doubt::Mirrored(told);
+        decision.verdict = match decision.verdict {
+            // It explains any other doubt, but for where one of both is astray.
+            Verdict::Doubtful(_) if told.of_film && !told.is_beyond_flipping() => {
+                Verdict::Doubtful(doubt)
+            }
+            verdict => verdict.or_doubt(Some(doubt)),
+        };
     }
+}
+
+/// In which frames there is a pose that is good.
+pub fn are_good(decisions: &[Option<Decision>]) -> Vec<bool> {
+    let is_good = |one: &Option<Decision>| one.as_ref().map(|one| one.verdict);
+    let good = decisions.iter().map(is_good);
+    good.map(|verdict| verdict == Some(Verdict::Good)).collect()
 }
 
 /// How mirrored models fit some frames ([`FlippedLooks`]); `apart` is how far the components lie beside each other in each, `fit` looks

@@ -9,7 +9,7 @@ use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions};
 use fluoropose_report::counted;
 
 use super::found::{Found, Part};
-use crate::choice::{doubt_mirrored, fit_flipped};
+use crate::choice::{are_good, doubt_mirrored, fit_flipped};
 use crate::files::Role;
 
 /// Doubts poses of both components where these lie beside each other as in no knee, source by source, and says so.
@@ -47,8 +47,9 @@ pub(super) fn doubt_parts(parts: &mut [Part<'_>]) -> Result<()> {
             knee.judge(&mut told, &apart, &fits);
         }
         say(&source, &told);
-        doubt_mirrored(&mut femur.found[number].decisions, &told);
-        doubt_mirrored(&mut tibia.found[other].decisions, &told);
+        let good = [&femur.found[number], &tibia.found[other]].map(|of| are_good(&of.decisions));
+        doubt_mirrored(&mut femur.found[number].decisions, &good[1], &told);
+        doubt_mirrored(&mut tibia.found[other].decisions, &good[0], &told);
     }
     Ok(())
 }

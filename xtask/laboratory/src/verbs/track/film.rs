@@ -17,9 +17,10 @@ use sha2::{Digest, Sha256};
 use super::constants::{learn_again, learn_film};
 use super::followed::followed;
 use super::journal::Journal;
-use super::judged::{good, judged};
+use super::judged::{against, good, judged};
 use super::left_over::left_over;
 use super::metal::begun;
+
 use super::mirrored::beside;
 use super::part::{Part, Shape, read_models};
 use super::request::{Request, Told};
@@ -286,7 +287,8 @@ fn finish(
     let joint = beside(run, parts, films)?;
     for (number, part) in parts.iter().enumerate() {
         let (cells, middle) = (&films[number], part.middle());
-        let judged = judged(run, (number, parts), films, margins, &joint);
+        let against = against(run, (number, parts), films, margins, &joint);
+        let judged = judged(run, (number, parts), films, margins, &against);
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))

@@ -44,6 +44,25 @@ pub(super) fn good(
     good_poses(&films[number], &judged)
 }
 
+/// What of what is told of the `joint` speaks against a component.
+pub(super) fn against(
+    run: &Run<'_>,
+    (number, parts): (usize, &[Part<'_>]),
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+    joint: &[Option<Beside>],
+) -> Vec<Option<Beside>> {
+    let Some(other) = other_of(number, parts).filter(|_| joint.iter().any(Option::is_some)) else {
+        return joint.to_vec();
+    };
+    let [own, others] = [number, other].map(|at| good(run, (at, parts), films, margins));
+    let each = joint.iter().zip(own.iter().zip(&others));
+    let left = |(told, (own, other)): (&Option<Beside>, (&Option<_>, &Option<_>))| {
+        told.and_then(|told| told.against(own.is_some(), other.is_some()))
+    };
+    each.map(left).collect()
+}
+
 pub(super) fn is_tibia(part: &Part<'_>) -> bool {
     part.role() == Some(Role::Tibia)
 }

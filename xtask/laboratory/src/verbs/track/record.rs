@@ -88,8 +88,8 @@ impl Record for FramePose {
             apart_px: (!apart.is_nan()).then_some(apart),
             size_px,
             behind_mm,
-            implausible_width_mm: 0.0,
             square_px: 1,
+            ..Fit::default()
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
