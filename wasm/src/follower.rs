@@ -13,8 +13,8 @@ use wasm_bindgen::prelude::*;
 pub use film_reader::FilmReader;
 
 use crate::film::film_model;
-use crate::found::{Uncertainty, uncertainty};
 use crate::squares::square_px;
+use crate::uncertainty::{Uncertainty, uncertainty};
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};

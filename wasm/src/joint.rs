@@ -14,7 +14,7 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
 
-use crate::found::{FILM, UPPER, Uncertainty, covariance_of};
+use crate::uncertainty::{FILM, UPPER, Uncertainty, covariance_of};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
@@ -23,7 +23,7 @@ pub(crate) const BORDER: usize = 180;
 
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
-/// Numbers of a component in a frame that come in: a pose and its uncertainty ([`crate::found::Uncertainty`]).
+/// Numbers of a component in a frame that come in: a pose and its uncertainty ([`crate::uncertainty::Uncertainty`]).
 const PLACED: usize = 6 + UNCERTAIN;
 /// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold, and what errors of the
 /// whole film do to each number.

@@ -27,6 +27,7 @@ mod matcher;
 mod search_plan;
 mod shape;
 mod squares;
+mod uncertainty;
 mod working_model;
 
 pub use anatomy::{ShapeAxes, flange_side, model_remarks, shape_axes, shape_component};

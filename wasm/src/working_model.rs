@@ -29,8 +29,8 @@ mod answers;
 pub(crate) use answers::{Assessed, Fit, Judged, Ranked};
 
 use crate::anatomy::ShapeAxes;
-use crate::found::{Uncertainty, uncertainty};
 use crate::squares::{side_of, square_px};
+use crate::uncertainty::{Uncertainty, uncertainty};
 use fluoropose_page::error::sentence;
 
 /// Mirror images nearer to another pose than this are that one, degrees.

@@ -1,5 +1,7 @@
 //! One click or one box: a first outline and pose, in steps between which a worker can be called off.
 
+mod offered;
+
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::{FilmModel, LineMemory};
@@ -18,11 +20,12 @@ use fluoropose_tracing::one_click::{
 };
 use wasm_bindgen::prelude::*;
 
+use self::offered::{contender, is_open, offered, possible, rivals};
+use super::Matcher;
 use super::answer::{OneClickAnswer, told};
 use super::from_here::{hide_model, model_of};
-use super::on_frame::{OnFrame, Seen, misfit, outline_of};
-use super::{Matcher, OFFERED, RIVAL_WITHIN};
-use crate::choice::{Chosen, Surroundings, tells_apart};
+use super::on_frame::{OnFrame, Seen, outline_of};
+use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::{Candidate, Match};
 use crate::hidden::{hide, with_mask};
@@ -32,9 +35,6 @@ use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::from_numbers;
-
-/// An answer whose edges are weaker than this part of the best's is no rival.
-const RIVAL_STRENGTH: f64 = 0.75;
 
 /// Numbers of a prompt: a click's column and row, or a box's left, top, right and bottom.
 fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
@@ -297,10 +297,9 @@ impl OneClick {
         around: &Surroundings,
     ) -> Result<OneClickAnswer, JsError> {
         let all = self.work.as_ref().map_or(&[][..], Work::answers);
-        let answers = self.possible(matcher, all)?;
-        let strongest = answers.first().map_or(0.0, |best| best.score);
-        let rivals = |answer: &&&Answer| answer.score >= RIVAL_STRENGTH * strongest;
-        let found = answers.iter().filter(rivals).map(|one| OnFrame::from(*one));
+        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
+        let answers = possible(all, &self.calibration, &middle);
+        let found = rivals(&answers).map(OnFrame::from);
         let (seen, found) = (self.seen(), self.given.iter().copied().chain(found));
         let mut answers = matcher.in_squares(found.collect(), &seen)?;
         let among = |answers: &[OnFrame]| {
@@ -331,13 +330,8 @@ impl OneClick {
             candidates.push(candidate);
         }
         let share = answer.supports.first().copied().unwrap_or(0.0);
-        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
         let covariance = candidates.first().and_then(Candidate::covariance);
-        let is_another = |open: usize| {
-            let poses = [chosen.index(), open].map(|at| &answers[at].refined.pose);
-            covariance.is_none_or(|of| tells_apart(&of, poses, &middle))
-        };
-        let is_open = chosen.open().is_some_and(is_another);
+        let is_open = is_open(&answers, &chosen, covariance.as_ref(), &middle);
         if !is_open {
             chosen = chosen.without_open();
         }
@@ -358,24 +352,6 @@ impl OneClick {
 }
 
 impl OneClick {
-    /// The answers that lie before the detector and not within the tube; all of them where none does, which their verdicts say.
-    fn possible<'a>(
-        &self,
-        matcher: &mut Matcher,
-        all: &'a [Answer],
-    ) -> Result<Vec<&'a Answer>, JsError> {
-        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
-        let may_be = |answer: &&Answer| {
-            let pose = &answer.refined.pose;
-            self.calibration.may_hold(-pose.transform(&middle)[2])
-        };
-        let possible: Vec<_> = all.iter().filter(may_be).collect();
-        Ok(match possible.is_empty() {
-            true => all.iter().collect(),
-            false => possible,
-        })
-    }
-
     fn seen(&self) -> Seen<'_> {
         Seen {
             frame: &self.film,
@@ -479,28 +455,6 @@ impl From<&Answer> for OnFrame {
             support: answer.support.fraction,
         }
     }
-}
-
-fn contender(one: &OnFrame) -> Contender {
-    Contender {
-        pose: one.refined.pose,
-        residual_px: misfit(&one.refined),
-    }
-}
-
-/// Numbers of the answers that are offered: the chosen one, the rival that is still open, and others that come near.
-fn offered(answers: &[OnFrame], chosen: &Chosen) -> Vec<usize> {
-    let misfit = |at: usize| misfit(&answers[at].refined);
-    let least = (0..answers.len()).map(misfit).fold(f64::MAX, f64::min);
-    let first = [chosen.index()].into_iter().chain(chosen.open());
-    let near = (0..answers.len()).filter(|&at| misfit(at) <= RIVAL_WITHIN * least);
-    let mut places: Vec<usize> = Vec::new();
-    for place in first.chain(near) {
-        if place < answers.len() && places.len() < OFFERED && !places.contains(&place) {
-            places.push(place);
-        }
-    }
-    places
 }
 
 #[cfg(test)]

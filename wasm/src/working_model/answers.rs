@@ -7,7 +7,7 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{Fit as OutlineFit, Refined};
 
-use crate::found::Uncertainty;
+use crate::uncertainty::Uncertainty;
 
 /// A pose that explains an outline.
 #[derive(Clone, Copy)]
