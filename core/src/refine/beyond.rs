@@ -5,10 +5,10 @@ use crate::math::Vector3;
 use crate::mesh::{Bounds, Model};
 use crate::pose::Pose;
 
-/// Cells along each side of the cube about a model that are asked whether they are in the frame.
+/// Cells along each side of the box about a model that are asked whether they are in the frame.
 const ALONG: usize = 12;
 
-/// Part of a model that lies beyond the frame, by the cells of a cube about it in which it has vertices, of however many a piece of its surface is made;
+/// Part of a model that lies beyond the frame, by the cells of the box about it in which it has vertices, of however many a piece of its surface is made;
 /// `pose` is `camera_from_model`.
 pub(crate) fn part_beyond(model: &Model<'_>, camera: &Camera, pose: &Pose) -> f64 {
     Frame {
@@ -32,7 +32,7 @@ impl Frame<'_> {
         if self.is_ball_within(&bounds, pose) {
             return 0.0;
         }
-        let cells = Cells::new(&bounds);
+        let cells = Cells::new(model.vertices());
         let mut taken = [false; ALONG * ALONG * ALONG];
         for vertex in model.vertices() {
             if let Some(taken) = taken.get_mut(cells.of(vertex)) {
@@ -72,39 +72,49 @@ impl Frame<'_> {
     }
 }
 
-/// The cells of the cube about a model, in 32 bits, which a microcontroller has.
+/// The cells of the box about a model, in 32 bits, which a microcontroller has: those of a cube about a long rod would be wider than it, and
+/// reach beyond a frame that holds it.
 struct Cells {
     low: [f32; 3],
-    per_mm: f32,
+    per_mm: [f32; 3],
 }
 
 impl Cells {
-    fn new(bounds: &Bounds) -> Self {
-        let radius = bounds.radius.max(f64::MIN_POSITIVE);
-        Self {
-            low: bounds.centre.map(|middle| (middle - radius) as f32),
-            per_mm: (ALONG as f64 / (2.0 * radius)) as f32,
+    fn new(vertices: &[[f32; 3]]) -> Self {
+        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for vertex in vertices {
+            for ((low, high), &at) in low.iter_mut().zip(&mut high).zip(vertex) {
+                (*low, *high) = (at.min(*low), at.max(*high));
+            }
         }
+        let per_mm = core::array::from_fn(|axis| {
+            let side = high[axis] - low[axis];
+            // Of a flat part all are in the first.
+            if side > 0.0 { ALONG as f32 / side } else { 0.0 }
+        });
+        Self { low, per_mm }
     }
 
     /// Number of the cell that a vertex lies in.
-    fn of(&self, &[x, y, z]: &[f32; 3]) -> usize {
-        let [left, bottom, back] = self.low;
-        let along = |from: f32, at: f32| (((at - from) * self.per_mm) as usize).min(ALONG - 1);
-        (along(left, x) * ALONG + along(bottom, y)) * ALONG + along(back, z)
+    fn of(&self, vertex: &[f32; 3]) -> usize {
+        let along = |axis: usize| {
+            let cell = (vertex[axis] - self.low[axis]) * self.per_mm[axis];
+            (cell as usize).min(ALONG - 1)
+        };
+        (along(0) * ALONG + along(1)) * ALONG + along(2)
     }
 
     /// The middle of a cell, mm.
     fn middle(&self, cell: usize) -> Vector3 {
-        let [left, bottom, back] = self.low;
-        let along = |from: f32, number: usize| {
-            f64::from(from) + (number as f64 + 0.5) / f64::from(self.per_mm)
-        };
-        [
-            along(left, cell / (ALONG * ALONG)),
-            along(bottom, cell / ALONG % ALONG),
-            along(back, cell % ALONG),
-        ]
+        let numbers = [cell / (ALONG * ALONG), cell / ALONG % ALONG, cell % ALONG];
+        core::array::from_fn(|axis| {
+            let per_mm = f64::from(self.per_mm[axis]);
+            let along = match per_mm > 0.0 {
+                true => (numbers[axis] as f64 + 0.5) / per_mm,
+                false => 0.0,
+            };
+            f64::from(self.low[axis]) + along
+        })
     }
 }
 
@@ -198,6 +208,42 @@ mod tests {
                     "{turned_deg} {right_mm}: {part} {wanted}"
                 );
             }
+        }
+    }
+
+    /// At any of its ends, along the frame's border and across it.
+    #[test]
+    fn of_a_long_rod_near_the_border_nothing_is_beyond_until_it_is() {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for k in -50..50i8 {
+            let first = vertices.len() as u32;
+            let along = 2.0 * f32::from(k);
+            vertices.extend([
+                [along, -2.0, 0.0],
+                [along + 2.0, -2.0, 0.0],
+                [along, 2.0, 3.0],
+            ]);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        let model = Model::from_triangles(&vertices, &triangles).expect("a rod");
+        let camera = Camera::new(400, 400, [1000.0; 2], [200.0; 2]).expect("valid");
+        let part = |turned_deg: f64, off_mm: f64| {
+            let turn = Pose::from(EulerPose {
+                z_rot_deg: turned_deg,
+                ..EulerPose::default()
+            });
+            let pose = Pose {
+                translation: [off_mm, 0.0, -1000.0],
+                ..turn
+            };
+            part_beyond(&model, &camera, &pose)
+        };
+        for side in [-1.0, 1.0] {
+            // Along the border, 3 mm within it and as much beyond, and across it.
+            assert_eq!(part(90.0, 195.0 * side), 0.0, "{side}");
+            assert_eq!(part(90.0, 205.0 * side), 1.0, "{side}");
+            assert!((part(0.0, 200.0 * side) - 0.5).abs() < 0.05, "{side}");
+            assert_eq!(part(0.0, 97.0 * side), 0.0, "{side}");
         }
     }
 

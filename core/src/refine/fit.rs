@@ -17,7 +17,7 @@ pub const MET_WITHIN_PX: f64 = 3.0;
 pub struct Fit {
     /// Part of the model's outline within the frame, by length, of which the target says anything: the rest lies in unknown pixels.
     pub known: f64,
-    /// Part of the model beyond the frame's border, by what its triangles cover as seen.
+    /// Part of the model beyond the frame's border, by the cells of a grid in the box about it in which it has vertices.
     pub beyond: f64,
     /// Part of what is known that the target's outline meets within [`MET_WITHIN_PX`].
     pub met: f64,
