@@ -147,6 +147,8 @@ impl Place {
 struct Outline {
     samples: Vec<[f64; 4], SAMPLES>,
     middle: [f64; 2],
+    /// Height of a pixel divided by its width.
+    aspect: f64,
 }
 
 impl Outline {
@@ -168,16 +170,25 @@ impl Outline {
         };
         outline_samples(subject.model, subject.camera, pose, memory, &mut add)?;
         let samples = samples.into_kept();
-        Ok(Self { samples, middle })
+        Ok(Self {
+            samples,
+            middle,
+            aspect: subject.camera.aspect(),
+        })
     }
 
-    /// Turned by an angle, counter-clockwise on the screen.
+    /// Turned by an angle, counter-clockwise on the screen, where all is measured in widths of a pixel.
     fn turned(&self, radians: f64) -> Vec<[f64; 4], SAMPLES> {
-        let (sin, cos) = sin_cos(radians);
+        let ((sin, cos), aspect) = (sin_cos(radians), self.aspect);
         let turn = |right: f64, down: f64| [right * cos + down * sin, down * cos - right * sin];
         let turned = self.samples.iter().map(|&[column, row, right, down]| {
-            let ([column, row], [right, down]) = (turn(column, row), turn(right, down));
-            [column, row, right, down]
+            let [column, row] = turn(column, row * aspect);
+            // What is across an outline is longer the shorter the outline's pixels are.
+            let [right, down] = turn(right, down / aspect);
+            let normal = [right, down * aspect];
+            let length = norm(&[normal[0], normal[1], 0.0]);
+            let [right, down] = normal.map(|along| along / length);
+            [column, row / aspect, right, down]
         });
         turned.collect()
     }

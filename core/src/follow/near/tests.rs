@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use std::vec::Vec as Many;
 #[cfg(feature = "alloc")]
 use {
-    crate::finder::fake, crate::math::subtract, crate::pose::geodesic_deg,
+    crate::camera::Camera, crate::finder::fake, crate::math::subtract, crate::pose::geodesic_deg,
     crate::refine::RefineBuffers,
 };
 
@@ -43,6 +43,7 @@ fn outline() -> Outline {
     Outline {
         samples,
         middle: [MIDDLE; 2],
+        aspect: 1.0,
     }
 }
 
@@ -190,17 +191,26 @@ properties! {
 
 /// The outline of the crank at a pose, with what is asked of a place of it.
 #[cfg(feature = "alloc")]
-fn with_crank<T>(act: impl FnOnce(&Subject<'_>, &mut RefineMemory<'_>) -> T) -> T {
-    let (model, camera) = (fake::crank(), fake::camera());
+fn with_crank<T>(camera: &Camera, act: impl FnOnce(&Subject<'_>, &mut RefineMemory<'_>) -> T) -> T {
+    let model = fake::crank();
     let (mut buffers, model) = (RefineBuffers::default(), model.as_model());
-    let subject = Subject::new(&model, &[], &camera);
-    act(&subject, &mut buffers.borrow(&model, &camera))
+    let subject = Subject::new(&model, &[], camera);
+    act(&subject, &mut buffers.borrow(&model, camera))
 }
 
-/// The model drawn at the pose of a place has the outline of that place, but for perspective.
+/// The model drawn at the pose of a place has the outline of that place, but for perspective; in pixels that are higher than wide, or wider than
+/// high, too.
 #[cfg(feature = "alloc")]
 #[test]
 fn a_place_of_an_outline_is_the_pose_whose_outline_lies_there() {
+    assert_lies_there(&fake::camera());
+    for focal in [[1000.0, 700.0], [720.0, 1000.0]] {
+        assert_lies_there(&Camera::new(SIDE, SIDE, focal, [81.0, 78.5]).expect("valid"));
+    }
+}
+
+#[cfg(feature = "alloc")]
+fn assert_lies_there(camera: &Camera) {
     let expected = fake::placed([15.0, -20.0, 8.0], [4.0, 3.0, 0.0]);
     for (shift, turn_deg, out) in [
         ([12.0, -9.0], 0.0, [0.0; 2]),
@@ -209,7 +219,7 @@ fn a_place_of_an_outline_is_the_pose_whose_outline_lies_there() {
         ([9.0, 3.0], 6.0, [-5.0, 0.0]),
     ] {
         let place = place(0.0, shift, turn_deg, out);
-        let (moved, drawn) = with_crank(|subject, memory| {
+        let (moved, drawn) = with_crank(camera, |subject, memory| {
             let middle = subject.model.bounds().centre;
             let pose = about(&middle, &expected, &turn_out(out), [0.0; 3]);
             let outline = Outline::of(subject, &pose, memory).expect("in front");
@@ -249,7 +259,7 @@ fn a_place_of_an_outline_is_the_pose_whose_outline_lies_there() {
 fn the_best_place_near_an_expected_pose_is_where_the_part_is_seen() {
     let expected = fake::placed([15.0, -20.0, 8.0], [4.0, 3.0, 0.0]);
     let seen = place(0.0, [12.0, -17.0], 6.0, [0.0; 2]);
-    with_crank(|subject, memory| {
+    with_crank(&fake::camera(), |subject, memory| {
         let right = seen.pose(subject, &expected);
         let pixels = fake::grey(&fake::crank(), subject.camera, &right);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
