@@ -31,12 +31,23 @@ pub(crate) fn plain_library_of(
         step: 1.0,
         count,
     };
+    let grid = ViewGrid {
+        x: axis(columns),
+        y: axis(views.len() / columns),
+    };
+    plain_library_on(views, grid, spec, record)
+}
+
+/// The same of any grid.
+pub(crate) fn plain_library_on(
+    views: &[Vec<Word>],
+    grid: ViewGrid,
+    spec: CanonicalSpec,
+    record: impl Fn(usize, usize) -> ViewRecord,
+) -> Vec<u8> {
     let info = LibraryInfo {
         canonical: spec,
-        grid: ViewGrid {
-            x: axis(columns),
-            y: axis(views.len() / columns),
-        },
+        grid,
         distance: 1000.0,
         reference: [0.0; 3],
         focal: 100.0,

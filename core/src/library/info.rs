@@ -1,5 +1,7 @@
 //! What a library is of: its grid of views, its camera, and what is kept of each view.
 
+use core::ops::Range;
+
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
 use crate::math::{Vector3, round, within};
@@ -92,6 +94,35 @@ impl ViewGrid {
     pub fn is_around(&self) -> bool {
         let reach = self.y.step * self.y.count as f64;
         (reach - 360.0).abs() < 0.5 * self.y.step
+    }
+
+    /// Whether views are missing beside one: it lies at an end of an axis that has several, and does not go all around there.
+    pub(crate) fn is_at_border(&self, view: usize) -> bool {
+        let (x, y) = self.place(view);
+        let at_end =
+            |at: usize, axis: &ViewAxis| axis.count > 1 && (at == 0 || at + 1 == axis.count);
+        // Beyond a pole lie views from the other side.
+        let is_pole = || self.is_around() && self.x.at(x as f64).abs() + self.x.step > 90.0;
+        at_end(x, &self.x) && !is_pole() || at_end(y, &self.y) && !self.is_around()
+    }
+
+    /// The rows about one, `reach` to either side: fewer where there are not so many, and at the ends as many to one side. Of a grid that goes all
+    /// around they are counted on beyond its ends ([`Self::row`]).
+    pub(crate) fn rows_about(&self, y: isize, reach: usize) -> Range<isize> {
+        let (length, count) = (2 * reach + 1, self.y.count);
+        if length <= count && self.is_around() {
+            return y - reach as isize..y + reach as isize + 1;
+        }
+        let length = length.min(count) as isize;
+        let first = (y - reach as isize).clamp(0, count as isize - length);
+        first..first + length
+    }
+
+    /// The row that is meant by a number of [`Self::rows_about`].
+    pub(crate) fn row(&self, number: isize) -> usize {
+        number
+            .checked_rem_euclid(self.y.count as isize)
+            .unwrap_or(0) as usize
     }
 
     /// Number of views.
@@ -194,6 +225,59 @@ mod tests {
         }
         assert!(!ViewGrid::default().is_around());
         assert!(ViewGrid::everywhere().is_around());
+    }
+
+    /// Of all sides none lies at a border; all around a window about x one does at the ends of that alone.
+    #[test]
+    fn views_are_missing_beyond_the_ends_of_what_does_not_go_all_around() {
+        let borders = |grid: ViewGrid| -> std::vec::Vec<(usize, usize)> {
+            let views = (0..grid.views()).filter(|&view| grid.is_at_border(view));
+            views.map(|view| grid.place(view)).collect()
+        };
+        for step_deg in [2.5, 7.0, 15.0] {
+            assert!(borders(ViewGrid::sphere(step_deg)).is_empty());
+        }
+        let x = ViewAxis {
+            first: -2.0,
+            step: 2.0,
+            count: 3,
+        };
+        let belt = ViewGrid {
+            x,
+            ..ViewGrid::sphere(15.0)
+        };
+        assert!(borders(belt).iter().all(|&(x, _)| x != 1));
+        assert_eq!(borders(belt).len(), 2 * belt.y.count);
+        let window = ViewGrid { x, y: x };
+        assert_eq!(borders(window).len(), 8);
+        let line = ViewGrid {
+            y: ViewAxis { count: 1, ..x },
+            ..window
+        };
+        assert_eq!(borders(line), [(0, 0), (2, 0)]);
+    }
+
+    #[test]
+    fn rows_about_one_go_on_where_the_grid_does() {
+        let around = ViewGrid::sphere(15.0);
+        let rows = |grid: &ViewGrid, y: isize| -> std::vec::Vec<usize> {
+            grid.rows_about(y, 1).map(|row| grid.row(row)).collect()
+        };
+        assert_eq!(rows(&around, 0), [23, 0, 1]);
+        assert_eq!(rows(&around, 23), [22, 23, 0]);
+        assert_eq!(rows(&around, -1), [22, 23, 0]);
+        let window = ViewGrid::default();
+        assert_eq!(rows(&window, 0), [0, 1, 2]);
+        assert_eq!(rows(&window, 40), [38, 39, 40]);
+        let few = ViewGrid {
+            y: ViewAxis {
+                step: 180.0,
+                count: 2,
+                ..around.y
+            },
+            ..around
+        };
+        assert_eq!(rows(&few, 1), [0, 1]);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(crate) fn window(at: usize, count: usize, reach: usize) -> core::ops::Range<
 }
 
 /// Lagrange's weight of the node `at` among consecutive whole `nodes`, for the place `x`.
-pub(crate) fn lagrange(nodes: &core::ops::Range<usize>, at: usize, x: f64) -> f64 {
+pub(crate) fn lagrange(nodes: &core::ops::Range<isize>, at: isize, x: f64) -> f64 {
     nodes
         .clone()
         .filter(|&other| other != at)
@@ -30,7 +30,7 @@ pub(crate) fn lagrange(nodes: &core::ops::Range<usize>, at: usize, x: f64) -> f6
 /// The 3 x 3 views around one, row by row.
 struct Neighbourhood {
     views: [usize; 9],
-    /// The place of the view in the middle.
+    /// The place of the view in the middle; of a grid that goes all around its row may be counted on beyond the ends.
     middle: [f64; 2],
     /// Which of the nine lie ahead of the view along x and behind it, and the same along y.
     ends: [usize; 4],
@@ -41,16 +41,17 @@ impl Neighbourhood {
     fn new(grid: &ViewGrid, view: usize) -> Option<Self> {
         let (x, y) = grid.place(view);
         let columns = window(x, grid.x.count, 1);
-        let rows = window(y, grid.y.count, 1);
+        let rows = grid.rows_about(y as isize, 1);
         if columns.len() < 3 || rows.len() < 3 {
             return None;
         }
-        let at =
-            core::array::from_fn(|node| grid.view(columns.start + node % 3, rows.start + node / 3));
-        let (x, y) = (x - columns.start, 3 * (y - rows.start));
+        let row = |node: usize| grid.row(rows.start + (node / 3) as isize);
+        let at = core::array::from_fn(|node| grid.view(columns.start + node % 3, row(node)));
+        let middle = [(columns.start + 1) as f64, (rows.start + 1) as f64];
+        let (x, y) = (x - columns.start, 3 * (y as isize - rows.start) as usize);
         Some(Self {
             views: at,
-            middle: [columns.start + 1, rows.start + 1].map(|at| at as f64),
+            middle,
             ends: [y + 2, y, 6 + x, x],
         })
     }

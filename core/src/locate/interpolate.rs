@@ -2,7 +2,7 @@
 
 use crate::library::{Library, ViewGrid, ViewRecord};
 use crate::locate::bands::{self, lagrange, window};
-use crate::math::{solve_spd, within, wrap};
+use crate::math::{floor, solve_spd, within, wrap};
 use crate::search::ViewMatch;
 use crate::search::ViewSearch;
 
@@ -44,14 +44,16 @@ pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch
     let last = |count: usize| count.saturating_sub(1) as f64;
     let place = [
         within(fine_x, 0.0, last(grid.x.count)),
-        within(fine_y, 0.0, last(grid.y.count)),
+        match grid.is_around() {
+            true => fine_y,
+            false => within(fine_y, 0.0, last(grid.y.count)),
+        },
     ];
-    let inside = |at: usize, count: usize| count == 1 || (at > 0 && at + 1 < count);
     FineView {
         record: record_at(library, place),
         reversed: candidate.reversed,
         unmatched: candidate.unmatched,
-        at_border: !(inside(x, grid.x.count) && inside(y, grid.y.count)),
+        at_border: grid.is_at_border(candidate.view),
     }
 }
 
@@ -65,11 +67,11 @@ fn fit_minimum(
 ) -> (f64, f64) {
     let mut normal = [[0.0; 6]; 6];
     let mut right = [0.0; 6];
-    for v in window(y, grid.y.count, REACH) {
+    for v in grid.rows_about(y as isize, REACH) {
         for u in window(x, grid.x.count, REACH) {
             let (a, b) = (u as f64 - x as f64, v as f64 - y as f64);
             let terms = [1.0, a, b, a * a, a * b, b * b];
-            let value = f64::from(score(grid.view(u, v)));
+            let value = f64::from(score(grid.view(u, grid.row(v))));
             for (row, &term) in terms.iter().enumerate() {
                 right[row] += term * value;
                 for (column, &other) in terms.iter().enumerate() {
@@ -92,16 +94,22 @@ fn minimum_of(c: &[f64; 6]) -> Option<(f64, f64)> {
 
 /// The record between the views, by biquadratic interpolation over the 3 x 3 nearest.
 ///
-/// Axis angles are unwrapped towards the nearest view's first: an axis has a period of pi.
+/// Axis angles are unwrapped towards the nearest view's first: an axis has a period of pi. Where the grid goes all around, so do its rows.
 fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
     let grid = &library.info().grid;
-    let nearest = [place[0] + 0.5, place[1] + 0.5].map(|p| p as usize);
-    let centre = library.record(grid.view(nearest[0], nearest[1]));
-    let columns = window(nearest[0], grid.x.count, 1);
-    let rows = window(nearest[1], grid.y.count, 1);
+    let (column, row) = ((place[0] + 0.5) as usize, floor(place[1] + 0.5) as isize);
+    let centre = library.record(grid.view(column, grid.row(row)));
+    let columns = window(column, grid.x.count, 1);
+    let nodes = columns.start as isize..columns.end as isize;
+    let rows = grid.rows_about(row, 1);
+    // Within the grid, from wherever it was counted on.
+    let rounds = match grid.is_around() {
+        true => floor(place[1] / grid.y.count as f64),
+        false => 0.0,
+    };
     let mut mean = ViewRecord {
         x_deg: grid.x.at(place[0]),
-        y_deg: grid.y.at(place[1]),
+        y_deg: grid.y.at(place[1] - rounds * grid.y.count as f64),
         angle: centre.angle,
         area: centre.area,
         elongation: centre.elongation,
@@ -110,8 +118,8 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
     for v in rows.clone() {
         let down = lagrange(&rows, v, place[1]);
         for u in columns.clone() {
-            let record = library.record(grid.view(u, v));
-            let weight = lagrange(&columns, u, place[0]) * down;
+            let record = library.record(grid.view(u, grid.row(v)));
+            let weight = lagrange(&nodes, u as isize, place[0]) * down;
             mean.scale += weight * record.scale;
             mean.angle += weight * wrap(record.angle - centre.angle, core::f64::consts::PI);
             mean.offset[0] += weight * record.offset[0];
@@ -126,7 +134,12 @@ mod tests {
     use super::*;
     use crate::canonical::CanonicalSpec;
     use crate::library::ViewAxis;
-    use crate::library::fake::plain_library_of;
+    use crate::library::fake::{plain_library_of, plain_library_on, spots};
+    use crate::search::kernels::Kernels;
+    use crate::search::{
+        Query, ViewSearchMemory, query_bytes_needed, scores_needed, search_bytes_needed,
+    };
+    use proptest::prelude::*;
 
     #[test]
     fn the_minimum_of_a_bowl_is_found_between_the_views() {
@@ -188,6 +201,78 @@ mod tests {
             // Of the nearest view.
             let [x, y] = place.map(|at| (at + 0.5) as u32);
             assert_eq!(found.area, 1 + 5 * y + x);
+        }
+    }
+
+    /// Rows of four views each, 45 degrees apart, all around.
+    const ROWS: usize = 8;
+
+    /// What is between the views of a library that begins with a row of `views`, about a view of that row.
+    fn fine_from(
+        first: usize,
+        views: &[std::vec::Vec<u32>],
+        silhouette: &[u32],
+        candidate: (usize, usize),
+    ) -> FineView {
+        let spec = CanonicalSpec::new(64, 900).expect("possible");
+        let axis = |first, step, count| ViewAxis { first, step, count };
+        let grid = ViewGrid {
+            x: axis(-3.0, 2.0, 4),
+            y: axis(-180.0, 45.0, ROWS),
+        };
+        let turned: std::vec::Vec<_> = (0..4 * ROWS)
+            .map(|view| views[(view + 4 * first) % views.len()].clone())
+            .collect();
+        let record = |x: usize, y: usize| {
+            let [x, y] = [x, (y + first) % ROWS].map(|at| at as f64);
+            ViewRecord {
+                scale: 1.0 + 0.1 * x + 0.03 * y * y,
+                angle: wrap(0.7 * y + 0.2 * x, core::f64::consts::PI),
+                offset: [x * y, 3.0 - y],
+                ..ViewRecord::default()
+            }
+        };
+        let bytes = plain_library_on(&turned, grid, spec, record);
+        let library = Library::open(&bytes).expect("valid");
+        let mut rotated = silhouette.to_vec();
+        crate::canonical::reverse(silhouette, &mut rotated);
+        let mut prepared = std::vec![0; query_bytes_needed(&spec)];
+        let query = Query::new(&spec, silhouette, &rotated, &mut prepared).expect("long enough");
+        let memory = ViewSearchMemory {
+            bounds: &mut std::vec![0; scores_needed(turned.len())],
+            sketches: &mut std::vec![0; search_bytes_needed(&spec)],
+        };
+        let mut search =
+            ViewSearch::new(&library, &query, &Kernels::PORTABLE, memory).expect("long enough");
+        let (x, y) = candidate;
+        let view = grid.view(x, (y + ROWS - first) % ROWS);
+        interpolate(
+            &mut search,
+            &ViewMatch {
+                view,
+                reversed: false,
+                unmatched: 0,
+            },
+        )
+    }
+
+    properties! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        /// The model turned about its own y by some rows of views: what is between them is the same, wherever the library begins.
+        #[test]
+        fn where_a_library_of_all_sides_begins_does_not_matter(
+            views in proptest::collection::vec(spots(64), 4 * ROWS), silhouette in spots(64),
+            first in 1..ROWS, x in 0..4usize, y in 0..ROWS,
+        ) {
+            let [one, other] = [0, first].map(|first| fine_from(first, &views, &silhouette, (x, y)));
+            prop_assert_eq!(one.at_border, other.at_border);
+            let (one, other) = (one.record, other.record);
+            let turned = one.y_deg - other.y_deg - 45.0 * first as f64;
+            prop_assert!(wrap(turned, 360.0).abs() < 1e-6, "{} {}", one.y_deg, other.y_deg);
+            prop_assert!((-180.0..180.0).contains(&other.y_deg));
+            prop_assert!((one.x_deg - other.x_deg).abs() < 1e-6 && (one.scale - other.scale).abs() < 1e-6);
+            prop_assert!(wrap(one.angle - other.angle, core::f64::consts::PI).abs() < 1e-6);
+            prop_assert!((0..2).all(|k| (one.offset[k] - other.offset[k]).abs() < 1e-6));
         }
     }
 

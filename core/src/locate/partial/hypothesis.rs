@@ -51,14 +51,11 @@ impl Hypothesis {
             elongation: f64::from(record.elongation),
             clipped: false,
         };
-        let grid = &info.grid;
-        let (x, y) = grid.place(self.view);
-        let inside = |at: usize, count: usize| count == 1 || (at > 0 && at + 1 < count);
         let fine = FineView {
             record,
             reversed: false,
             unmatched: 0,
-            at_border: !(inside(x, grid.x.count) && inside(y, grid.y.count)),
+            at_border: info.grid.is_at_border(self.view),
         };
         Located {
             pose: pose_from_view(camera, info, &form, &fine),

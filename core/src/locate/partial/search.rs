@@ -10,7 +10,7 @@ use super::similarity::Similarity;
 use super::slide::{Fit, Samples, Slide, Sums, slide};
 use super::units::{FARTHEST, NEAREST, Units};
 use super::view::{ViewMemory, view_outline};
-use crate::library::{Library, ViewAxis};
+use crate::library::{Library, ViewAxis, ViewGrid};
 
 /// Between the views of the coarse grid, degrees, about.
 const COARSE_DEG: f64 = 4.0;
@@ -205,10 +205,11 @@ impl PartialSearch<'_> {
     /// neighbours of the best of them.
     pub(super) fn fine(&self, seed: &Hypothesis, memory: &mut ViewMemory<'_>) -> Hypothesis {
         let mut best = *seed;
+        let grid = &self.library.info().grid;
         for reach in [2, 1] {
             let centre = best;
             for (right, down) in AROUND {
-                let Some(view) = self.neighbour(centre.view, right * reach, down * reach) else {
+                let Some(view) = neighbour(grid, centre.view, right * reach, down * reach) else {
                     continue;
                 };
                 let Some(outline) = view_outline(self.library, view, &self.units, memory) else {
@@ -226,15 +227,15 @@ impl PartialSearch<'_> {
         }
         best
     }
+}
 
-    /// The view at a distance in views; `None` beyond the grid.
-    fn neighbour(&self, view: usize, right: isize, down: isize) -> Option<usize> {
-        let grid = &self.library.info().grid;
-        let (x, y) = grid.place(view);
-        let x = x.checked_add_signed(right).filter(|&x| x < grid.x.count)?;
-        let y = y.checked_add_signed(down).filter(|&y| y < grid.y.count)?;
-        Some(grid.view(x, y))
-    }
+/// The view at a distance in views; `None` beyond a grid that does not go all around.
+fn neighbour(grid: &ViewGrid, view: usize, right: isize, down: isize) -> Option<usize> {
+    let (x, y) = grid.place(view);
+    let x = x.checked_add_signed(right).filter(|&x| x < grid.x.count)?;
+    let y = y as isize + down;
+    let is_there = grid.is_around() || (0..grid.y.count as isize).contains(&y);
+    is_there.then(|| grid.view(x, grid.row(y)))
 }
 
 /// What the score of a hypothesis must be below to have a place in a list.
@@ -278,6 +279,21 @@ fn repeated<'n>(piece: &Piece<'_>, numbers: &'n mut [f32]) -> Option<Samples<'n>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_view_at_an_end_of_a_grid_that_goes_all_around_has_neighbours_at_the_other() {
+        let (around, window) = (ViewGrid::sphere(15.0), ViewGrid::default());
+        let at = |grid: &ViewGrid, from: (usize, usize), right, down| {
+            let view = neighbour(grid, grid.view(from.0, from.1), right, down);
+            view.map(|view| grid.place(view))
+        };
+        assert_eq!(at(&around, (3, 0), 1, -2), Some((4, 22)));
+        assert_eq!(at(&around, (3, 23), -1, 1), Some((2, 0)));
+        assert_eq!(at(&around, (0, 5), -1, 0), None);
+        assert_eq!(at(&window, (3, 0), 0, -1), None);
+        assert_eq!(at(&window, (3, 40), 0, 1), None);
+        assert_eq!(at(&window, (3, 39), 2, 1), Some((5, 40)));
+    }
 
     #[test]
     fn no_view_of_an_axis_is_far_from_the_coarse_grid() {
