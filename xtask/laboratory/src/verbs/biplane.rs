@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::finder::{Limits, Verdict, is_determined, judge_fit};
+use fluoropose::finder::choice::DECISIVE_RATIO;
+use fluoropose::finder::{Doubt, Limits, OTHER_DEG, Verdict, is_determined, judge_fit};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{CameraView, Refined};
 use fluoropose_report::plus_minus;
 
@@ -23,7 +24,7 @@ use crate::sequence::{Folders, Source};
     after_help = "Both calibrations are camera matrices with rotation and translation from one laboratory (MayaCam 2.0, XMALab). The library \
 gives first poses in the first camera; refinement then brings the model onto the masks of both at once. Poses are written in the first \
 camera's frame, looking along -z; plus-minus is one standard deviation. A pose is doubtful where the cameras contradict each other: each mask alone is met clearly better \
-elsewhere, as of other moments or exchanged calibrations. A pair that no pose explains has NaN. The command exits with 3 where a pose is doubtful or missing.\n\n\
+elsewhere, as of other moments or exchanged calibrations; and where another pose fits both as well. A pair that no pose explains has NaN. The command exits with 3 where a pose is doubtful or missing.\n\n\
 Example:\n  cargo xtask biplane --library femur.library --model femur.stl --calibration one.txt --masks one --second-calibration two.txt \
 --second-masks two --out femur.jts"
 )]
@@ -95,13 +96,16 @@ pub fn run(args: Args) -> Result<u8> {
         ];
         let found = pair(&mut finder, &silhouette, &views)
             .with_context(|| format!("no pose for {}", path.display()))?;
+        let best = found
+            .first()
+            .with_context(|| format!("nothing to start from for {}", path.display()))?;
         let (word, because) = judge(&mut finder, &views, &found)?;
         bar.suspend(|| {
-            describe(path, &found, &mesh.bounds().centre);
+            describe(path, best, &mesh.bounds().centre);
             println!("  {word}: {because}");
         });
         all_good &= word == Verdict::Good.word();
-        let pose = (word != NONE).then(|| EulerPose::from(found.0.pose));
+        let pose = (word != NONE).then(|| EulerPose::from(best.0.pose));
         poses.push(pose);
         bar.inc(1);
     }
@@ -113,14 +117,19 @@ pub fn run(args: Args) -> Result<u8> {
 /// The word of a verdict that there is no pose.
 const NONE: &str = "none";
 
-/// How far a pose is to be trusted, in a word, and why.
+/// A refined pose and how sure it is.
+type Sure = (Refined, Option<PoseCovariance>);
+
+/// How far the first of the poses is to be trusted, in a word, and why.
 fn judge(
     finder: &mut Finder<'_>,
     views: &[CameraView<'_>],
-    (refined, covariance): &(Refined, Option<PoseCovariance>),
+    found: &[Sure],
 ) -> Result<(&'static str, String)> {
+    let (refined, covariance) = found.first().context("there is nothing to start from")?;
     let fit = finder.fit_views(views, &refined.pose)?;
     let verdict = judge_fit(&fit, is_determined(covariance.as_ref()), &Limits::USUAL);
+    let verdict = verdict.or_doubt(open(found));
     let told = (verdict.word(), verdict.to_string());
     if verdict.word() == NONE {
         return Ok(told);
@@ -130,19 +139,27 @@ fn judge(
     Ok(contradiction.map_or(told, |why| ("doubtful", why.to_string())))
 }
 
-/// The pose that explains what both cameras saw.
+/// That another pose than the first fits as well, as of a part with two planes of symmetry, which falls on itself by half a turn.
+fn open(found: &[Sure]) -> Option<Doubt> {
+    let misfit_px = |(refined, _): &Sure| (2.0 * refined.loss).sqrt();
+    let (best, others) = found.split_first()?;
+    let is_open = |other: &&Sure| {
+        let turn_deg = geodesic_deg(&best.0.pose.rotation, &other.0.pose.rotation);
+        turn_deg >= OTHER_DEG && misfit_px(other) <= DECISIVE_RATIO * misfit_px(best)
+    };
+    let other = others.iter().find(is_open)?;
+    Some(Doubt::open(&best.0.pose, &other.0.pose, misfit_px(other)))
+}
+
+/// The poses that explain what both cameras saw, the best first.
 fn pair(
     finder: &mut Finder<'_>,
     silhouette: &Silhouette<'_>,
     views: &[CameraView<'_>],
-) -> Result<(Refined, Option<PoseCovariance>)> {
+) -> Result<Vec<Sure>> {
     let found = finder.all(&(*silhouette).into())?;
     let starts: Vec<Pose> = found.candidates.iter().map(|one| one.pose).collect();
-    let found = finder.refine_views(views, &starts)?;
-    found
-        .into_iter()
-        .next()
-        .context("there is nothing to start from")
+    finder.refine_views(views, &starts)
 }
 
 fn describe(
@@ -167,4 +184,32 @@ fn describe(
         number(pose.y_rot_deg, sure.map(|sure| sure.y_rot_deg)),
         refined.residual_px
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_pose_that_fits_both_cameras_as_well_is_told() {
+        let found = |turn_deg: f64, misfit_px: f64| {
+            let pose = Pose::from(EulerPose {
+                y_rot_deg: turn_deg,
+                z_mm: -900.0,
+                ..EulerPose::default()
+            });
+            let mut refined = Refined::at(pose);
+            refined.loss = misfit_px * misfit_px / 2.0;
+            (refined, None)
+        };
+        let told = |other| open(&[found(0.0, 0.5), other]);
+        assert!(
+            matches!(told(found(180.0, 0.5)), Some(Doubt::Open { turn_deg, .. }) if turn_deg > 179.0)
+        );
+        // Hardly another one, and one that leaves by far more.
+        assert_eq!(told(found(2.0, 0.5)), None);
+        assert_eq!(told(found(180.0, 0.7)), None);
+        assert_eq!(open(&[found(0.0, 0.5)]), None);
+        assert_eq!(open(&[]), None);
+    }
 }
