@@ -78,7 +78,7 @@ impl Fit<'_> {
         }
     }
 
-    /// The best of several curvatures and attenuations, on some of the profiles; between curvatures by a parabola.
+    /// The best of several curvatures and attenuations, on some of the profiles.
     pub(super) fn begin(&mut self) -> Option<Vector> {
         self.every = (self.profiles.len() / FEW).max(1);
         self.hold = true;
