@@ -23,7 +23,8 @@
 //!
 //! Residual and tilt choose whatever the film says: a pose that its film does not go through is doubtful ([`detours`]).
 //!
-//! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]).
+//! A chosen pose that makes no knee with the other component is doubtful ([`Choice::no_knee_deg`]), unless that is doubtful itself: then that one is
+//! the likelier to be wrong.
 //!
 //! Rules 2 and 3 need models with the field's axes: x anteroposterior, y superoinferior (the tibial
 //! component's along its stem, upwards), z mediolateral.
@@ -178,6 +179,13 @@ impl fmt::Display for Reason {
             Self::Only => f.write_str("the only pose found"),
             Self::Residual {
                 chosen_px,
+                other_px: f64::INFINITY,
+            } => write!(
+                f,
+                "residual {chosen_px:.3} px, and no other pose fits at all"
+            ),
+            Self::Residual {
+                chosen_px,
                 other_px,
             } => write!(f, "residual {chosen_px:.3} px against {other_px:.3} px"),
             Self::Knee {
@@ -236,8 +244,8 @@ pub struct Choice {
     pub reason: Reason,
     /// The best of what nothing ruled out: show it beside the chosen pose.
     pub open: Option<OpenRival>,
-    /// How far the mediolateral axes are from the other component's, degrees, where that is known and no knee does it: a pose or the
-    /// axes of a model are wrong.
+    /// How far the mediolateral axes are from the other component's, degrees, where that is known, not doubtful itself, and no knee does it: a
+    /// pose or the axes of a model are wrong.
     pub no_knee_deg: Option<f64>,
 }
 
@@ -297,6 +305,7 @@ fn mean_turn_deg(pose: &Pose, neighbours: &[Pose]) -> f64 {
 struct Contenders<'a> {
     candidates: &'a [RivalPose],
     counterpart: Option<&'a Counterpart>,
+    is_counterpart_doubtful: bool,
     open: Vec<usize, CONTENDERS>,
     /// How many of those nothing speaks against: they come first.
     preferred: usize,
@@ -313,6 +322,7 @@ impl<'a> Contenders<'a> {
         let mut contenders = Self {
             candidates,
             counterpart,
+            is_counterpart_doubtful: is_doubtful,
             open: Vec::new(),
             preferred: 0,
             reason: None,
@@ -357,8 +367,13 @@ impl<'a> Contenders<'a> {
             index,
             reason: self.reason.unwrap_or_else(undecided),
             open,
-            no_knee_deg: no_knee_deg(self.counterpart, self.candidates.get(index)),
+            no_knee_deg: no_knee_deg(self.trusted(), self.candidates.get(index)),
         })
+    }
+
+    /// The other component, unless it is doubtful itself.
+    fn trusted(&self) -> Option<&Counterpart> {
+        self.counterpart.filter(|_| !self.is_counterpart_doubtful)
     }
 
     fn first(&self) -> Option<usize> {

@@ -27,7 +27,8 @@ pub struct Fit {
     /// 10 px from a silhouette and 4 px in a grey frame.
     pub misfit_px: f64,
     /// Known pixels that are in the silhouette or in the drawing but not in both, for each pixel of known outline: the
-    /// mean distance between the two outlines, whichever is longer, pixels. `None` of a grey frame.
+    /// mean distance between the two outlines, whichever is longer, pixels, less what all of the silhouette's outline is known to lie off. `None` of
+    /// a grey frame.
     pub apart_px: Option<f64>,
     /// Square root of the area of the model as drawn, pixels: what is one pixel off tells more of a larger silhouette.
     pub size_px: f64,
@@ -83,6 +84,8 @@ pub(super) struct FitSums {
     /// Pixels that differ; `None` once a view is a grey frame.
     unmatched: Unmatched,
     area: f64,
+    /// How far silhouettes are known to lie off everywhere alike, pixels.
+    off: f64,
     beyond: f64,
     views: f64,
     behind_mm: f64,
@@ -139,16 +142,18 @@ impl FitSums {
         self.beyond += Frame { camera, beyond }.part_beyond(model, pose);
     }
 
-    /// `drawn` is the model as drawn in that view.
+    /// `drawn` is the model as drawn in that view, of whose outline all of the target's is known to lie `offset_px` off.
     pub(super) fn add_areas(
         &mut self,
         target: &Target<'_>,
+        offset_px: f64,
         drawn: &[Word],
     ) -> Result<(), MaskError> {
         let (width, height) = target.size();
         let words = drawn.get(..words_needed(width, height));
         let drawn = Mask::new(words.unwrap_or_default(), width, height)?;
         self.area += drawn.area() as f64;
+        self.off += offset_px.abs();
         self.views += 1.0;
         let unmatched = match target {
             Target::Silhouette(silhouette) => silhouette.unmatched(&drawn),
@@ -170,7 +175,9 @@ impl FitSums {
             residual_px: sqrt(part(self.met_squares, self.met)),
             misfit_px: sqrt(part(self.squares, self.known)),
             apart_px: match self.unmatched {
-                Unmatched::Pixels(pixels) if self.known > 0.0 => Some(pixels / self.known),
+                Unmatched::Pixels(pixels) if self.known > 0.0 => {
+                    Some((pixels / self.known - part(self.off, self.views)).max(0.0))
+                }
                 _ => None,
             },
             size_px: sqrt(part(self.area, self.views)),
@@ -248,5 +255,55 @@ mod tests {
         let (left, above) = (crop.columns().start, crop.rows().start);
         let inside = (98 - left..1302 - left, 232 - above..268 - above);
         assert_eq!(at(&part, inside.0, inside.1, Some(crop)), whole);
+    }
+
+    /// A mask two pixels too large all along is as near to the model as one that is exact, once that is known.
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn what_a_silhouette_is_known_to_lie_off_everywhere_sets_no_outlines_apart() {
+        use crate::camera::Camera;
+        use crate::image::mask::MaskMut;
+        use crate::image::silhouette::{CommonOffset, Silhouette};
+        use crate::mesh::edges::fake::add_box;
+        use crate::refine::{RefineBuffers, Refined, assess};
+        use std::vec;
+        use std::vec::Vec;
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        let (low, high) = ([-30.0, -20.0, -1.0], [30.0, 20.0, 1.0]);
+        add_box(low, high, &mut vertices, &mut triangles);
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let camera = Camera::new(400, 300, [3000.0; 2], [200.0, 150.0]).expect("valid");
+        let pose = Pose {
+            translation: [0.0, 0.0, -1001.0],
+            ..Pose::IDENTITY
+        };
+        let apart = |wider: i64, offset_px: f64, common: f64| {
+            let mut words = vec![0; words_needed(400, 300)];
+            let mut mask = MaskMut::new(&mut words, 400, 300).expect("fits");
+            let (rows, ends) = (90 - wider..210 + wider, [110 - wider, 290 + wider]);
+            rows.for_each(|row| mask.fill_span(row as usize, ends[0], ends[1]));
+            let mask = mask.into_mask();
+            let common = CommonOffset {
+                px: common,
+                ..CommonOffset::OF_MASKS
+            };
+            let silhouette = Silhouette::from(&mask).lying_off(common);
+            let refined = Refined {
+                offset_px,
+                ..Refined::at(pose)
+            };
+            let mut buffers = RefineBuffers::default();
+            let mut memory = buffers.borrow(&model, &camera);
+            let view = CameraView::only(&camera, silhouette);
+            let seen = assess(&model, &[view], &refined, &mut memory).expect("in front");
+            seen.fit.apart_px.expect("of a mask")
+        };
+        let exact = apart(0, 0.0, 0.0);
+        assert!(exact < 0.6, "{exact}");
+        assert!(apart(2, 0.0, 0.0) > 1.5);
+        for (offset_px, common) in [(2.0, 0.0), (0.0, 2.0), (-1.0, 3.0)] {
+            let left = apart(2, offset_px, common);
+            assert!(left < 0.6, "{left}");
+        }
     }
 }

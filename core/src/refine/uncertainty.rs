@@ -159,7 +159,8 @@ pub(super) fn observe(
             scratch: memory.projected,
         });
         sums.add_samples(border, stage.range);
-        sums.add_areas(&view.target, memory.drawn)?;
+        let offset_px = refined.offset_px + view.target.offset_px();
+        sums.add_areas(&view.target, offset_px, memory.drawn)?;
         sums.add_place(model, view, &seen);
     }
     Ok(sums.fit())

@@ -193,11 +193,13 @@ impl FilmStep {
             },
         };
         let candidate = frame.candidates.get(index);
+        let beside = frame.counterpart.as_ref();
+        let beside = beside.filter(|_| !frame.is_counterpart_doubtful);
         Choice {
             index,
             reason,
             open,
-            no_knee_deg: no_knee_deg(frame.counterpart.as_ref(), candidate),
+            no_knee_deg: no_knee_deg(beside, candidate),
         }
     }
 }

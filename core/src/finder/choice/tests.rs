@@ -161,6 +161,13 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
             Reason::Knee { .. } | Reason::Tilt { .. }
         ));
     }
+    // Beside a femur that is doubtful itself it is not: that one is the likelier to be wrong.
+    let beside_doubt = ChoiceContext {
+        is_counterpart_doubtful: true,
+        ..context
+    };
+    let alone = choose(&[wrong], &beside_doubt).expect("one");
+    assert_eq!((alone.index, alone.no_knee_deg), (0, None));
     // So it is over a film, and with the femur sought.
     let film = [FilmFrame {
         candidates: &[wrong, candidate(turned(-75.0), 1.1)],
@@ -170,6 +177,12 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
     let mut choices = [None];
     choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
     assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_some()));
+    let film = film.map(|frame| FilmFrame {
+        is_counterpart_doubtful: true,
+        ..frame
+    });
+    choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
+    assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_none()));
     let sought = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(turned(-79.0))),
         is_counterpart_doubtful: false,
