@@ -33,13 +33,32 @@ export function directionsOf(anterior: AxisWord, superior: AxisWord): Directions
   return dot(a, s) === 0 ? [a, s, cross(a, s)] : null;
 }
 
-/** Words as a study file has them: the file's anterior, superior and right. Null where they are no right-handed frame. */
+/** Sine of a degree: what a person measures is at right angles to within that, as the core has it. */
+const SQUARE = 0.017452;
+
+/** Words as a study file has them, read as the core does: the file's anterior, superior and right. Null where they are no right-handed frame. */
 export function directionsFromWords(text: string): Directions | null {
-  const words = text.trim().split(/\s+/).map((word) => AXIS_WORDS.find((known) => known === word.replace(/^\+/, '')));
+  const words = text.match(/\([^)]*\)|[^\s(]+/g)?.map(directionFromWord) ?? [];
   const [anterior, superior, right] = words;
-  if (words.length !== 3 || !anterior || !superior || !right) return null;
-  const directions = directionsOf(anterior, superior);
-  return directions && wordOf(directions[2]) === right ? directions : null;
+  if (words.length !== 3 || !anterior || !superior || !right || dot(cross(anterior, superior), right) < 0.5) return null;
+  const isSkew = [dot(anterior, superior), dot(superior, right), dot(right, anterior)].some((cosine) => Math.abs(cosine) > SQUARE);
+  const across = unit(cross(anterior, superior));
+  return isSkew || !across ? null : [cross(superior, across), superior, across];
+}
+
+/** A letter with its sign, or a direction of any length in brackets. */
+function directionFromWord(word: string): Vector | null {
+  const known = AXIS_WORDS.find((axis) => axis === word.replace(/^\+/, ''));
+  if (known) return directionOf(known);
+  const numbers = /^\((.*)\)$/.exec(word)?.[1]?.split(',').map((number) => (number.trim() === '' ? NaN : Number(number))) ?? [];
+  const [x, y, z] = numbers;
+  return numbers.length === 3 ? unit([x!, y!, z!]) : null;
+}
+
+/** Null where it has no direction. */
+function unit([x, y, z]: Vector): Vector | null {
+  const length = Math.hypot(x, y, z);
+  return length > 0 && Number.isFinite(length) ? [x / length, y / length, z / length] : null;
 }
 
 /** The reverse; null where one of them is none of the file's axes. */

@@ -72,7 +72,7 @@ export const study = {
   opened: (name: string) => `the study ${name}`,
   notRead: (why: string) => `it is not read as a study: ${why}`,
   wrongAxes: (component: string, words: string) =>
-    `the axes of the ${component}, "${words}", are not three of x, -x, y, -y, z and -z that make a right-handed frame: anterior, superior, right`,
+    `the axes of the ${component}, "${words}", are not three of x, -x, y, -y, z and -z, or directions as (0.6, 0, 0.8), that make a right-handed frame: anterior, superior, right`,
   wrongFilm: 'of [film] either curvature (0 to 1) and blur_px (above 0, at most 12) are stated, or display and blur_px, or one of these',
   otherImages: (count: number, names: string) => `${count === 1 ? 'One image is' : `${count} images are`} not in the study’s folder of frames and left out: ${names}.`,
   otherPoses: (count: number, names: string) => `${count === 1 ? 'One file of poses is' : `${count} files of poses are`} not the study’s reference and left out: ${names}.`,

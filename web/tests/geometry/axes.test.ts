@@ -14,13 +14,16 @@ describe('axes', () => {
     }
   });
 
-  it.each(['x y -z', 'x x y', 'x y', 'x y z x', 'a b c', ''])('are not "%s"', (words) => {
+  it.each(['x y -z', 'x x y', 'x y', 'x y z x', 'a b c', '', '(1, 1, 0) y z', 'x y (0, 0.02, 1)', '(1, 0) y z', '(1, 0, ) y z', '(0, 0, 0) y z', '(8, 6, 0) (-6, 8, 0) -z', '(1, 0, 0 y z'])('are not "%s"', (words) => {
     expect(directionsFromWords(words)).toBeNull();
   });
 
   it('are read as a study writes them', () => {
     expect(directionsFromWords(' +x  y z ')).toEqual([[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
     expect(wordsOf(facingTheOtherWay(directionsFromWords('-z y x')!))).toEqual(['z', 'y', '-x']);
+    const oblique = directionsFromWords('(8.05, 6, 0)(-6, 8, 0) z')!;
+    expect(isFrame(oblique)).toBe(true);
+    expect(oblique.flat().map((number) => 0 + Number(number.toFixed(3)))).toEqual([0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, 1]);
   });
 
   it('that are none of the file’s have no words, and tilt alike when they face the other way', () => {

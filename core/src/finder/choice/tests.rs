@@ -161,13 +161,6 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
             Reason::Knee { .. } | Reason::Tilt { .. }
         ));
     }
-    // Beside a femur that is doubtful itself it is not: that one is the likelier to be wrong.
-    let beside_doubt = ChoiceContext {
-        is_counterpart_doubtful: true,
-        ..context
-    };
-    let alone = choose(&[wrong], &beside_doubt).expect("one");
-    assert_eq!((alone.index, alone.no_knee_deg), (0, None));
     // So it is over a film, and with the femur sought.
     let film = [FilmFrame {
         candidates: &[wrong, candidate(turned(-75.0), 1.1)],
@@ -177,12 +170,6 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
     let mut choices = [None];
     choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
     assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_some()));
-    let film = film.map(|frame| FilmFrame {
-        is_counterpart_doubtful: true,
-        ..frame
-    });
-    choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
-    assert!(choices[0].is_some_and(|choice| choice.no_knee_deg.is_none()));
     let sought = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(turned(-79.0))),
         is_counterpart_doubtful: false,
@@ -191,6 +178,32 @@ fn what_makes_no_knee_is_ruled_out_by_what_does_and_is_doubtful_else() {
     let choice = choose(&[candidate(femur, 1.0)], &sought).expect("one");
     assert!(choice.no_knee_deg.is_some());
     assert_eq!(choose(&[wrong], &NOTHING).expect("one").no_knee_deg, None);
+}
+
+/// That one is the likelier to be wrong.
+#[test]
+fn what_makes_no_knee_with_a_femur_that_is_doubtful_itself_is_not_doubtful() {
+    let (femur, right) = knee();
+    let about = EulerPose::from([0.0, 0.0, 0.0, 0.0, 0.0, -79.0]);
+    let turned = [candidate(right.compose(&Pose::from(about)), 1.0)];
+    let counterpart = Some(Counterpart::Femur(femur));
+    let [known, doubtful] = [false, true].map(|is_counterpart_doubtful| {
+        let context = ChoiceContext {
+            counterpart,
+            is_counterpart_doubtful,
+            neighbours: &[],
+        };
+        let film = [FilmFrame {
+            candidates: &turned,
+            counterpart,
+            is_counterpart_doubtful,
+        }];
+        let mut choices = [None];
+        choose_film(&film, &mut [FilmStep::default()], &mut choices).expect("memory as needed");
+        let alone = choose(&turned, &context).expect("one");
+        [Some(alone), choices[0]].map(|choice| choice.and_then(|choice| choice.no_knee_deg))
+    });
+    assert!(known.iter().all(Option::is_some) && doubtful.iter().all(Option::is_none));
 }
 
 #[test]
