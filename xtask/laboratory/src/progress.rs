@@ -1,7 +1,8 @@
 //! How far a long piece of work is, and the wish to end it.
 
-use std::sync::Arc;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,6 +25,17 @@ pub fn progress(length: usize, what: &str) -> ProgressBar {
     ProgressBar::new(length as u64)
         .with_style(style)
         .with_message(what.to_owned())
+}
+
+/// What was said once.
+static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+
+/// Says a sentence on standard error that holds for many things alike, as a camera's for every source of masks: the first time alone.
+pub fn say_once(sentence: &str) {
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if said.insert(sentence.to_owned()) {
+        eprintln!("{sentence}");
+    }
 }
 
 /// Says on standard error what is being done now.

@@ -16,5 +16,5 @@ mod scene;
 
 pub use disturb::{DisturbanceOptions, Disturbed};
 pub use level::Noise;
-pub use mask_buffer::{MOST_PIECES, MaskBuffer};
+pub use mask_buffer::MaskBuffer;
 pub use scene::Scene;

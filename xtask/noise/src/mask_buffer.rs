@@ -8,7 +8,7 @@ use fluoropose::image::region::largest_region;
 const SPECK_SHARE: u64 = 10;
 
 /// So many separate pieces are counted at most.
-pub const MOST_PIECES: usize = 4;
+const MOST_PIECES: usize = 4;
 
 /// A silhouette with its own memory.
 #[derive(Clone, Debug)]
@@ -132,6 +132,25 @@ impl MaskBuffer {
         Ok(pieces)
     }
 
+    /// That it is in pieces, a sentence without its full stop; `None` where it is in one.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn in_pieces(&self) -> Result<Option<String>> {
+        let areas: Vec<String> = self.pieces()?.iter().map(u64::to_string).collect();
+        let number = match areas.len() {
+            0 | 1 => return Ok(None),
+            MOST_PIECES => format!("at least {MOST_PIECES}"),
+            few => few.to_string(),
+        };
+        let (last, first) = areas.split_last().expect("two or more");
+        Ok(Some(format!(
+            "the mask has {number} separate pieces, of {} and {last} pixels, and an implant is one: leave out what is not its own, and mark what hides a part \
+             of it as unknown",
+            first.join(", ")
+        )))
+    }
+
     /// What has been drawn.
     pub fn mask(&self) -> Mask<'_> {
         Mask::new(&self.words, self.width, self.height)
@@ -188,10 +207,16 @@ mod tests {
             (&[], &[0]),
         ] {
             assert_eq!(squares(sides).pieces().unwrap(), areas, "{sides:?}");
+            let told = squares(sides).in_pieces().unwrap();
+            assert_eq!(told.is_some(), areas.len() > 1, "{told:?}");
         }
         // A chessboard of single pixels.
         let board: Vec<u8> = (0..101 * 7).map(|at| (at % 2) as u8).collect();
         let board = MaskBuffer::of_pixels(&board, 101, 7).unwrap();
         assert_eq!(board.pieces().unwrap(), [1; MOST_PIECES]);
+        let told = board.in_pieces().unwrap().unwrap();
+        assert!(
+            told.starts_with("the mask has at least 4 separate pieces, of 1, 1, 1 and 1 pixels")
+        );
     }
 }

@@ -8,7 +8,7 @@ use fluoropose::locate::Located;
 use rayon::prelude::*;
 
 use super::finder::Finder;
-use crate::noise::{Disturbed, MOST_PIECES};
+use crate::noise::Disturbed;
 use crate::progress::progress;
 use crate::sequence::Sequence;
 
@@ -64,22 +64,9 @@ pub fn find_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<FrameFoun
 /// Why nothing was found in a mask: that it is in pieces, rather than that an outline around all of them fits nowhere. Where pixels are told to be
 /// unknown, they may divide it.
 fn why(mask: &Disturbed, error: &Error) -> String {
-    let areas = match mask.unknown {
-        None if error.is::<FindError>() => mask.mask.pieces().unwrap_or_default(),
-        _ => Vec::new(),
+    let pieces = match mask.unknown {
+        None if error.is::<FindError>() => mask.mask.in_pieces().ok().flatten(),
+        _ => None,
     };
-    let areas: Vec<String> = areas.iter().map(u64::to_string).collect();
-    let [first @ .., last] = &areas[..] else {
-        return format!("{error:#}");
-    };
-    let number = match areas.len() {
-        1 => return format!("{error:#}"),
-        MOST_PIECES => format!("at least {MOST_PIECES}"),
-        few => few.to_string(),
-    };
-    format!(
-        "the mask has {number} separate pieces, of {} and {last} pixels, and an implant is one: leave out what is not its own, and mark what hides a part \
-         of it as unknown",
-        first.join(", ")
-    )
+    pieces.unwrap_or_else(|| format!("{error:#}"))
 }

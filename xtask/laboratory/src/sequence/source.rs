@@ -16,6 +16,7 @@ use crate::files::{
     reduced,
 };
 use crate::noise::{DisturbanceOptions, Disturbed};
+use crate::progress::say_once;
 
 /// Masks, and what belongs to them, that are in memory; as many of each.
 pub struct InMemory {
@@ -38,6 +39,23 @@ fn read_whole(path: &Path) -> Result<Vec<(PathBuf, MaskBuffer)>> {
         }
     }
     Ok(masks)
+}
+
+/// Says of masks that are in pieces that they are: of the first, and how many more there are.
+fn say_pieces(masks: &[(PathBuf, MaskBuffer)]) -> Result<()> {
+    let told = masks.par_iter().map(|(name, mask)| {
+        let told = mask.in_pieces()?;
+        Ok(told.map(|told| format!("{}: {told}", name.display())))
+    });
+    let told: Vec<Option<String>> = told.collect::<Result<_>>()?;
+    let mut told = told.into_iter().flatten();
+    if let Some(first) = told.next() {
+        match told.count() {
+            0 => eprintln!("{first}"),
+            more => eprintln!("{first}; so it is of {more} more"),
+        }
+    }
+    Ok(())
 }
 
 /// The folders of a sequence; the order of names is that of the frames in each.
@@ -84,14 +102,17 @@ impl Source {
         for (path, mask) in &masks {
             check_size(path, mask, size)?;
         }
-        if let Some(doubt) = inverted(&masks) {
-            eprintln!("{}: {doubt}", folders.masks.display());
+        match inverted(&masks) {
+            Some(doubt) => eprintln!("{}: {doubt}", folders.masks.display()),
+            // What is told to be unknown may divide them.
+            None if folders.unknown.is_none() => say_pieces(&masks)?,
+            None => {}
         }
         let count = masks.len();
         let folder = || folders.masks.display().to_string();
         let (camera, doubts) = camera_of_frames(calibration, size).with_context(folder)?;
         for doubt in doubts {
-            eprintln!("{doubt}");
+            say_once(&doubt);
         }
         let unknown = folders.unknown.map(|path| read_unknown(path, count, size));
         let frames = folders.frames.map(|path| Frames::read(path, count, size));
