@@ -22,6 +22,12 @@ import { asJob, type Report, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call' | 'dispose'>;
 
+/** What is told beside what following a film came to: of components that were found nowhere it is an error. */
+interface Told {
+  readonly kind: 'error' | 'info';
+  readonly sentences: readonly string[];
+}
+
 type Film = Pick<FilmLater, 'ready' | 'chooseSquares' | 'knowsBeside' | 'takeBeside' | 'learnAgain'>;
 
 /**
@@ -108,9 +114,10 @@ export class Follower {
   async #follow({ missing, told }: Begun, abort: AbortController): Promise<void> {
     const { store } = this.#services;
     const parts = this.#parts(store.doc);
-    const warnings = [...missing.map((component) => this.#whyMissing(component)), ...told];
+    const why = missing.map((component) => this.#whyMissing(component));
+    const beside = { kind: why.length > 0 ? 'error' : 'info', sentences: [...why, ...told] } as const;
     this.#sayNotFound(missing);
-    if (parts.length === 0) return store.say(warnings.length > 0 ? 'error' : 'info', warnings.length > 0 ? warnings.join(' ') : this.#nothingToDo());
+    if (parts.length === 0) return store.say(beside.kind, beside.sentences.join(' ') || this.#nothingToDo());
     const before: Before = new Map();
     const begun = store.doc;
     const cancel = () => abort.abort();
@@ -121,18 +128,18 @@ export class Follower {
     store.amend((doc) => withoutSoFar(doc, left));
     // Found with a model or a calibration that is another by now, or in another film.
     if (!isAsBefore) return;
-    this.#take(parts, found, warnings, abort.signal.aborted);
+    this.#take(parts, found, beside, abort.signal.aborted);
   }
 
   /** Takes what was found from leads that are still there: who took one back found it wrong. */
-  #take(parts: readonly Part[], all: readonly Followed[], warnings: readonly string[], isStopped: boolean): void {
+  #take(parts: readonly Part[], all: readonly Followed[], beside: Told, isStopped: boolean): void {
     const { store } = this.#services;
     const found = all.filter(({ place }) => isLed(store.doc, place.component));
     if (found.length === 0 && all.length > 0) return store.say('info', this.#nothingToDo());
     if (found.length > 0) store.perform(takeFollowed(found));
     const lacking = found.filter(({ pose }) => !pose).length;
     const done = texts.follow.done(posesOf(store.doc, parts), howManyDoubtful(found), lacking, isStopped);
-    store.say(warnings.length > 0 ? 'error' : 'info', [done, ...warnings].join(' '), undefined, 'film');
+    store.say(beside.kind, [done, ...beside.sentences].join(' '), undefined, 'film');
   }
 
   /** In the card of each component, where it was looked for; the bottom line has it with what was found. */

@@ -15,7 +15,7 @@ export const follow = {
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
   outdone: (component: string, frame: number, other: number) =>
-    `The pose that your click on the ${component} in frame ${frame} led to lies on weaker edges than what the film shows in frame ${other}, which leads instead; undo brings it back.`,
+    `Your click on the ${component} in frame ${frame} led to weaker edges than the film shows in frame ${other}, which leads instead; undo brings it back.`,
   unit: 'frames',
   /** What is found, of both components: twice as many as there are frames. */
   posesUnit: 'poses',

@@ -97,7 +97,7 @@ describe('clicks that do not convince', () => {
     const { store, begin, asked, xs } = bench({ found: { femur: 4 }, outcome: 'outdone' });
     set(store, femur(2), 7, 'doubtful');
     const { told } = await begin();
-    expect(told).toEqual([expect.stringContaining('your click on the femur in frame 3 led to lies on weaker edges than what the film shows in frame 5')]);
+    expect(told).toEqual([expect.stringContaining('Your click on the femur in frame 3 led to weaker edges than the film shows in frame 5')]);
     expect(asked).toEqual([['find', 'femur', 1, true], ['compare', 'femur', 4, 2, [3, 4], true]]);
     expect(xs()).toEqual([null, null, null, null, 50, null]);
     store.undo();
