@@ -94,7 +94,7 @@ pub struct Settling {
     choices: Vec<(Vec<SideSample>, Vec<SideStep>)>,
     /// Frames seen from elsewhere.
     elsewhere: Vec<SideSample>,
-    /// The frames that went over to what was seen elsewhere, as they were before.
+    /// The frames that went over, as they were before.
     before: Vec<(Range<usize>, Vec<Cell>)>,
     /// What was seen on ways over jumps: of the way's frame, from its trail. They are crossed more than once, and most trails are as before then.
     over_jumps: Vec<(usize, Trail, Looked)>,
@@ -153,10 +153,13 @@ impl Settling {
                 },
                 Phase::ChooseAgain => (Some(SettlingStep::Choose), Phase::GoOver),
                 Phase::GoOver => {
-                    let runs = runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
+                    let runs: Vec<_> =
+                        runs_to_go_over(&self.samples, &self.steps, cells.len()).collect();
+                    self.keep_before(&runs, cells);
                     (self.to_go_over(runs, cells), Phase::Stay)
                 }
                 Phase::Stay => {
+                    self.take_lost_ones_back(cells);
                     self.stay(cells);
                     (None, self.after_sides(cells))
                 }
@@ -311,6 +314,26 @@ impl Settling {
         (!runs.is_empty()).then_some(SettlingStep::GoOver(runs))
     }
 
+    fn keep_before(&mut self, runs: &[(Range<usize>, Anchor)], cells: &[Cell]) {
+        for (run, _) in runs {
+            let run = self.within(run);
+            let kept = cells[run.clone()].to_vec();
+            self.before.push((run, kept));
+        }
+    }
+
+    /// Frames in which the way on the other side lost the component, and the one before had it: where it goes on there is seen next.
+    fn take_lost_ones_back(&mut self, cells: &mut [Cell]) {
+        for (run, before) in take(&mut self.before) {
+            let lost = |(now, before): &(&mut Cell, Cell)| {
+                now.found().is_none() && before.found().is_some()
+            };
+            for (now, before) in cells[run].iter_mut().zip(before).filter(lost) {
+                *now = before;
+            }
+        }
+    }
+
     /// Frames whose way led back to the side that was not chosen take the pose that was seen on the other one.
     fn stay(&self, cells: &mut [Cell]) {
         for (sample, step) in self.choice() {
@@ -344,11 +367,7 @@ impl Settling {
         }
         self.rounds -= 1;
         let runs = runs_elsewhere(&self.elsewhere, cells.len());
-        for (run, _) in &runs {
-            let run = self.within(run);
-            let kept = cells[run.clone()].to_vec();
-            self.before.push((run, kept));
-        }
+        self.keep_before(&runs, cells);
         match self.to_go_over(runs, cells) {
             None => (None, Phase::Cross),
             step => (step, Phase::Keep),

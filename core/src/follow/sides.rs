@@ -102,6 +102,9 @@ const GO_OVER: [f64; 2] = [0.5, 4.0];
 const JUMP: f64 = 0.5;
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
 pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
+/// Both sides are two, however near they are, where one leaves so many times what the other does: from the first number on a little, from the second
+/// on wholly.
+const SEVERAL: [f64; 2] = [2.0, 3.0];
 /// What residuals say that decide nothing by themselves.
 const HINT: f64 = 0.25;
 /// The most that one frame says.
@@ -152,16 +155,21 @@ impl SideEvidence {
         }
     }
 
-    /// How far both are two poses of which a frame can tell, 0 to 1: two sides of a mirror become one slowly.
+    /// How far both are two poses of which a frame can tell, 0 to 1: two sides of a mirror become one slowly. However near both are, one that
+    /// leaves several times as much is not it.
     fn told(&self) -> f64 {
+        let between = |at: f64, [from, to]: [f64; 2]| ((at - from) / (to - from)).clamp(0.0, 1.0);
+        let decisions = self.residual().abs() * ln(DECISIVE_RATIO);
         match self.rival {
-            Rival::Mirrored => ((self.apart_deg - SAME_DEG) / (ONE_DEG - SAME_DEG)).clamp(0.0, 1.0),
+            Rival::Mirrored => {
+                let apart = between(self.apart_deg, [SAME_DEG, ONE_DEG]);
+                apart.max(between(decisions, SEVERAL.map(ln)))
+            }
             Rival::Elsewhere => 1.0,
         }
     }
 
-    /// What the residuals of both say for the pose on the trail, 1 where they decide by themselves; however near both are, one that leaves
-    /// several times as much is not it.
+    /// What the residuals of both say for the pose on the trail, 1 where they decide by themselves.
     fn residual(&self) -> f64 {
         let ratio = self.mirrored.misfit_px / self.own.misfit_px;
         let decisive = match self.rival {
@@ -449,6 +457,26 @@ mod tests {
         // One of the two leaves three times as much.
         let film = [seen(0, 1.4, None, 12.0), seen(8, 3.0, None, 2.4)];
         assert!(chosen(&film)[1].1 > 1.0);
+    }
+
+    /// A start on the other side that ends in a false minimum a degree beside the trail: the trail may seem to go over there and back.
+    #[test]
+    fn what_leaves_several_times_as_much_is_not_it_however_near_it_is() {
+        let film = |ratio: f64| {
+            let mut film = [
+                seen(0, 8.9, None, 8.3),
+                seen(2, ratio, None, 1.1),
+                seen(4, 6.6, None, 3.2),
+            ];
+            film[1..].iter_mut().for_each(|one| one.went_over = true);
+            film
+        };
+        assert_eq!(chosen(&film(1.2))[1].0, Side::Mirrored);
+        let told = chosen(&film(3.0));
+        assert!(
+            told.iter()
+                .all(|(side, margin)| *side == Side::Own && *margin >= 1.0)
+        );
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::follow::fake::{looked, turned};
+use crate::follow::look::Missing;
 use crate::pose::geodesic_deg;
 
 const FRAMES: usize = 9;
@@ -59,7 +60,7 @@ fn order(times: f64) -> Vec<&'static str> {
     words
 }
 
-/// A way on the other side that leads back.
+/// A way on the other side that leads back, or nowhere.
 #[test]
 fn frames_stay_on_the_side_that_was_chosen() {
     let mut cells = film();
@@ -85,10 +86,52 @@ fn frames_stay_on_the_side_that_was_chosen() {
         *cell = Cell::default();
     }
     settling.next(&mut cells);
-    assert!(cells[..4].iter().all(|cell| cell.found().is_none()));
-    for (frame, cell) in cells.iter().enumerate().skip(4) {
+    for (frame, cell) in cells.iter().enumerate() {
         assert_eq!(cell.found(), Some(&other(frame)));
     }
+}
+
+/// Nothing is seen on the other side there, and the frames beside it leave less on it.
+#[test]
+fn a_frame_that_is_lost_on_the_way_over_has_the_pose_that_it_had() {
+    let mut cells = film();
+    let mut settling = Settling::new([0.0; 3], 0..FRAMES);
+    let runs = loop {
+        match settling.next(&mut cells).expect("the other side") {
+            SettlingStep::See(rival, frames) => {
+                for frame in frames {
+                    let other = turned(frame as f64 + 20.0, 0.05);
+                    settling.saw(SideSample {
+                        frame,
+                        own: *cells[frame].found().expect("it was seen"),
+                        rival,
+                        other: Some(other).filter(|_| frame != 3),
+                        fixed: false,
+                    });
+                }
+            }
+            SettlingStep::Choose => settling.choose(None),
+            SettlingStep::GoOver(runs) => break runs,
+            _ => panic!("sides come first"),
+        }
+    };
+    for frame in runs.into_iter().flat_map(|(run, _)| run) {
+        let found = turned(frame as f64 + 20.0, 0.05);
+        let found = (frame != 3).then_some(found).ok_or(Missing::Hidden);
+        cells[frame] = Cell::on_the_way(looked(found));
+    }
+    settling.next(&mut cells);
+    let turns = cells.iter().map(|cell| {
+        let pose = cell.found().expect("none is lost").pose;
+        libm::round(geodesic_deg(
+            &pose.rotation,
+            &turned(0.0, 0.0).pose.rotation,
+        ))
+    });
+    assert_eq!(
+        turns.collect::<Vec<_>>(),
+        [20.0, 21.0, 22.0, 3.0, 24.0, 25.0, 26.0, 27.0, 28.0]
+    );
 }
 
 /// Seen are frames 2, 6, 10 and so on; then the way comes to another pose in frame 12.
