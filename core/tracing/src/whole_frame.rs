@@ -22,7 +22,7 @@ use crate::shapes::{SHAPES, ShapeMemory, shapes};
 use crate::surround::surround;
 
 /// Most places that are tried.
-const PLACES: usize = SHAPES + SEEDS;
+const PLACES: usize = 1 + SHAPES + SEEDS;
 /// Of places that are merely dark so many are tried, those whose regions look most like the component: where they lie all are looked at in
 /// passing, which takes about such a part of what it takes to try one.
 const TRIED: usize = 4;
@@ -140,6 +140,49 @@ impl WholeFrame {
         (places, beside): (Places, Option<Vector3>),
         memory: &mut PlacesMemory<'_>,
     ) -> Result<Self, TooLittleMemory> {
+        let is_near = |place: &Point| {
+            beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
+        };
+        let at = (places, is_near, None);
+        Self::at(image, component, camera, at, memory).map(|mut search| {
+            search.beside = beside;
+            search.begin(component);
+            search
+        })
+    }
+
+    /// Begins where somebody clicked and that led to nothing that convinces: there once more, for in a reduced frame other regions hold the
+    /// place, and at places of the frame whose shape is the component's and that lie no farther off than it is large.
+    ///
+    /// # Errors
+    /// As of [`Self::new`].
+    pub fn near(
+        image: &ImageTarget<'_>,
+        component: &Component<'_>,
+        camera: &Camera,
+        click: Point,
+        memory: &mut PlacesMemory<'_>,
+    ) -> Result<Self, TooLittleMemory> {
+        let size = expected_size(component, camera);
+        let is_near = |place: &Point| {
+            let off = [place.column - click.column, place.row - click.row];
+            sqrt(off[0] * off[0] + off[1] * off[1]) <= size
+        };
+        let at = (Places::Shaped, is_near, Some(click));
+        Self::at(image, component, camera, at, memory).map(|mut search| {
+            search.begin(component);
+            search
+        })
+    }
+
+    /// Places of those that are kept, behind the `first` one; nothing has begun there yet.
+    fn at(
+        image: &ImageTarget<'_>,
+        component: &Component<'_>,
+        camera: &Camera,
+        (places, is_kept, first): (Places, impl Fn(&Point) -> bool, Option<Point>),
+        memory: &mut PlacesMemory<'_>,
+    ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
         // An implant in nothing but air may lie before what is taken for a surround: other places are looked for in the frame as it is.
         let surround = match places {
@@ -150,22 +193,19 @@ impl WholeFrame {
             unknown: surround.as_ref().or(image.unknown),
             ..*image
         };
-        let is_near = |place: &Point| {
-            beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
-        };
         let listed = |place: Point| (place, 0.0);
-        let mut all = Vec::new();
+        let mut all: Vec<_, PLACES> = first.into_iter().map(listed).collect();
         if places != Places::Dark {
             let shaped = shapes(image, component, camera, size, &mut memory.shapes)?;
-            all.extend(shaped.into_iter().filter(is_near).map(listed));
+            all.extend(shaped.into_iter().filter(&is_kept).map(listed));
         }
         let shaped = all.len();
         if places != Places::Shaped {
             let dark = seeds(image, camera, size, memory.sums)?;
-            all.extend(dark.into_iter().filter(is_near).map(listed));
+            all.extend(dark.into_iter().filter(&is_kept).map(listed));
         }
-        let mut search = Self {
-            beside,
+        let search = Self {
+            beside: None,
             places: all,
             shaped,
             in_passing: false,
@@ -179,7 +219,6 @@ impl WholeFrame {
         if search.reduction.is_any() && !search.places.is_empty() {
             search.reduction.write(image, &mut memory.reduced)?;
         }
-        search.begin(component);
         Ok(search)
     }
 

@@ -1,5 +1,6 @@
 //! One click or one box: a first outline and pose, in steps between which a worker can be called off.
 
+mod near;
 mod offered;
 
 use fluoropose::camera::Camera;
@@ -13,13 +14,14 @@ use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{Polarity, RefineMemory};
+use fluoropose::refine::{ImageTarget, Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
+use self::near::{Clicked, Near};
 use self::offered::{contender, is_open, offered, possible, rivals};
 use super::Matcher;
 use super::answer::{OneClickAnswer, told};
@@ -72,6 +74,9 @@ pub struct OneClick {
     /// What the joint's other component tells, where that is known.
     beside: Option<Beside>,
     work: Option<Work>,
+    /// Why its regions led to nothing, and what places near it lead to.
+    vain: Option<String>,
+    near: Near,
     /// A pose that was found before, refined, and its mirror images.
     given: Vec<OnFrame>,
     buffers: OneClickBuffers,
@@ -113,6 +118,8 @@ impl OneClick {
             excluded: None,
             beside: None,
             work: None,
+            vain: None,
+            near: Near::Unasked,
             given: Vec::new(),
             buffers: OneClickBuffers::default(),
             known: None,
@@ -188,6 +195,9 @@ impl OneClick {
     /// Part of the work that is done, 0 to 1.
     #[wasm_bindgen(getter)]
     pub fn progress(&self) -> f64 {
+        if let Some(part) = self.near.progress() {
+            return part;
+        }
         match self.work.as_ref().map(Work::progress) {
             None => 0.0,
             Some(Progress::Regions(done) | Progress::Poses(done)) => done,
@@ -199,6 +209,7 @@ impl OneClick {
     #[wasm_bindgen(getter)]
     pub fn doing(&self) -> String {
         let words = match self.work.as_ref().map(Work::progress) {
+            _ if self.near.progress().is_some() => "Looking once more near the click",
             None | Some(Progress::Regions(_)) => "Looking for the implant's region",
             Some(Progress::Poses(_)) => "Bringing the model onto the edges",
             Some(Progress::Done) => "Done",
@@ -206,46 +217,19 @@ impl OneClick {
         words.to_owned()
     }
 
-    /// One step with a library and its model. Gives whether there is more to do.
+    /// One step with a library and its model. Gives whether there is more to do. Where its regions lead to nothing that convinces, places near
+    /// the click are tried.
     ///
     /// # Errors
     /// A sentence about why there is no outline.
     pub fn step(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
-        matcher.with_component(&self.camera, |component, workspace, refine| {
-            let mut work = match self.work.take() {
-                Some(work) => work,
-                None => {
-                    let work = begun(self.prompt, &self.camera, self.untold, component)?;
-                    match &self.beside {
-                        Some(beside) => in_joint(work, beside, &self.film, component)?,
-                        None => work,
-                    }
-                }
-            };
-            let mut memory = self
-                .buffers
-                .borrow(&work.needs(&self.camera), workspace, refine);
-            let (camera, polarity, film) = (&self.camera, self.polarity, of_pixels(self.known));
-            let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
-            let more = self.film.look(|frame| {
-                with_mask(hidden, camera, |beside| {
-                    let observation = Observation {
-                        frame,
-                        camera,
-                        polarity,
-                        // Without what the other component covers a silhouette over which that lies would have a gap. Its edges are left
-                        // out where the film is known.
-                        excluded: None,
-                        beside,
-                        film,
-                    };
-                    work.step(&observation, Some(component), &mut memory)
-                        .map_err(sentence)
-                })
-            });
-            self.work = Some(work);
-            more
-        })
+        if self.near.progress().is_some() {
+            return self.step_near(matcher);
+        }
+        match self.step_regions(matcher)? {
+            true => Ok(true),
+            false => self.begin_near(matcher),
+        }
     }
 
     /// Takes a pose (six numbers) that was found before instead of looking for one: what came of it is that and its mirror images.
@@ -296,7 +280,8 @@ impl OneClick {
         matcher: &mut Matcher,
         around: &Surroundings,
     ) -> Result<OneClickAnswer, JsError> {
-        let all = self.work.as_ref().map_or(&[][..], Work::answers);
+        let work = self.work.as_ref().filter(|_| self.given.is_empty());
+        let all = work.map_or(&[][..], Work::answers);
         let middle = model_of(&mut matcher.model)?.model().bounds().centre;
         let answers = possible(all, &self.calibration, &middle);
         let found = rivals(&answers).map(OnFrame::from);
@@ -352,6 +337,134 @@ impl OneClick {
 }
 
 impl OneClick {
+    /// One step of the regions that hold the click.
+    fn step_regions(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
+        matcher.with_component(&self.camera, |component, workspace, refine| {
+            let mut work = match self.work.take() {
+                Some(work) => work,
+                None => {
+                    let work = begun(self.prompt, &self.camera, self.untold, component)?;
+                    match &self.beside {
+                        Some(beside) => in_joint(work, beside, &self.film, component)?,
+                        None => work,
+                    }
+                }
+            };
+            let mut memory = self
+                .buffers
+                .borrow(&work.needs(&self.camera), workspace, refine);
+            let (camera, polarity, film) = (&self.camera, self.polarity, of_pixels(self.known));
+            let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
+            let more = self.film.look(|frame| {
+                with_mask(hidden, camera, |beside| {
+                    let observation = Observation {
+                        frame,
+                        camera,
+                        polarity,
+                        // Without what the other component covers a silhouette over which that lies would have a gap. Its edges are left
+                        // out where the film is known.
+                        excluded: None,
+                        beside,
+                        film,
+                    };
+                    Ok(work.step(&observation, Some(component), &mut memory))
+                })
+            });
+            self.work = Some(work);
+            // Places near the click may lead somewhere.
+            Ok(more?.unwrap_or_else(|error| {
+                self.vain = Some(error.to_string());
+                false
+            }))
+        })
+    }
+
+    fn begin_near(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
+        let all = self.work.as_ref().map_or(&[][..], Work::answers);
+        let all = if self.vain.is_some() { &[] } else { all };
+        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
+        let answers = possible(all, &self.calibration, &middle);
+        let near = self.clicked(matcher, |clicked, memory| {
+            Near::begun(clicked, &answers, memory)
+        });
+        self.near = near.unwrap_or(Ok(Near::Over))?;
+        match self.near {
+            Near::Searched(_) => Ok(true),
+            _ => self.end_near(None),
+        }
+    }
+
+    fn step_near(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
+        let Near::Searched(mut near) = core::mem::take(&mut self.near) else {
+            return Ok(false);
+        };
+        let mut buffers = core::mem::take(&mut self.buffers);
+        let more = self.clicked(matcher, |clicked, memory| {
+            near.step(clicked, &mut buffers, memory)
+        });
+        self.buffers = buffers;
+        if more.unwrap_or(Ok(false))? {
+            self.near = Near::Searched(near);
+            return Ok(true);
+        }
+        let found = self.clicked(matcher, |clicked, _| near.found(clicked));
+        let found = found.unwrap_or(Ok(None))?;
+        let found = found.filter(|pose| {
+            let middle = matcher
+                .model
+                .as_ref()
+                .map(|model| model.model().bounds().centre);
+            middle.is_none_or(|middle| self.calibration.may_hold(-pose.transform(&middle)[2]))
+        });
+        let given = found.map(|pose| matcher.given_pose(&pose, &self.seen()));
+        self.end_near(given.transpose()?)
+    }
+
+    /// Calls `with` with the click and the memory to look near it; nothing where a box was drawn.
+    fn clicked<T>(
+        &self,
+        matcher: &mut Matcher,
+        with: impl FnOnce(&Clicked<'_>, (Workspace<'_>, RefineMemory<'_>)) -> Result<T, JsError>,
+    ) -> Option<Result<T, JsError>> {
+        let Prompt::Click(place) = self.prompt else {
+            return None;
+        };
+        let (camera, polarity, film) = (&self.camera, self.polarity, of_pixels(self.known));
+        let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
+        Some(
+            matcher.with_component(camera, |component, workspace, refine| {
+                self.film.look(|frame| {
+                    with_mask(hidden, camera, |unknown| {
+                        let image = ImageTarget {
+                            frame,
+                            unknown,
+                            polarity,
+                            film,
+                        };
+                        let clicked = Clicked {
+                            image,
+                            component,
+                            camera,
+                            place,
+                        };
+                        with(&clicked, (workspace, refine))
+                    })
+                })
+            }),
+        )
+    }
+
+    /// Takes what was found near the click. Without it the answers of its regions are what there is, or the error.
+    fn end_near(&mut self, given: Option<Vec<OnFrame>>) -> Result<bool, JsError> {
+        self.near = Near::Over;
+        match (given, self.vain.take()) {
+            (Some(given), _) => self.given = given,
+            (None, Some(vain)) => return Err(JsError::new(&vain)),
+            (None, None) => {}
+        }
+        Ok(false)
+    }
+
     fn seen(&self) -> Seen<'_> {
         Seen {
             frame: &self.film,

@@ -13,8 +13,11 @@ use fluoropose::refine::Polarity;
 use fluoropose::render::{Projected, render};
 use fluoropose::search::kernels::Kernels;
 
-/// Widths of the frames in which the first click searches, where there is any, of frames that are so many pixels wide.
-fn searched(side: usize) -> [Option<usize>; 3] {
+/// What comes of a search that is begun in a frame which is so many pixels wide.
+fn begun<T>(
+    side: usize,
+    with: impl FnOnce(&ImageTarget<'_>, &Component<'_>, &Camera, &mut PlacesMemory<'_>) -> T,
+) -> T {
     let (vertices, triangles) = model();
     let model = Model::from_triangles(&vertices, &triangles).expect("valid");
     let bytes = library(model, 1000.0);
@@ -46,11 +49,41 @@ fn searched(side: usize) -> [Option<usize>; 3] {
     };
     let (mut buffers, mut finder) = (PlacesBuffers::default(), FinderBuffers::default());
     let mut memory = buffers.borrow(&camera, finder.workspace(&library, Kernels::PORTABLE));
-    [Places::Shaped, Places::Dark, Places::All].map(|places| {
-        let begun = WholeFrame::new(&image, &component, &camera, (places, None), &mut memory);
-        let search = begun.expect("enough memory");
-        search.needs().map(|_| search.reduction.camera().width())
+    with(&image, &component, &camera, &mut memory)
+}
+
+/// Widths of the frames in which the first click searches, where there is any, of frames that are so many pixels wide.
+fn searched(side: usize) -> [Option<usize>; 3] {
+    begun(side, |image, component, camera, memory| {
+        [Places::Shaped, Places::Dark, Places::All].map(|places| {
+            let begun = WholeFrame::new(image, component, camera, (places, None), memory);
+            let search = begun.expect("enough memory");
+            search.needs().map(|_| search.reduction.camera().width())
+        })
     })
+}
+
+/// The first place is where somebody clicked; the implant is 90 pixels large.
+#[test]
+fn near_a_click_are_itself_and_places_no_farther_off_than_the_component_is_large() {
+    for (click, others) in [
+        ([192.0, 192.0], true),
+        ([230.0, 150.0], true),
+        ([12.0, 370.0], false),
+    ] {
+        let click = Point::new(click[0], click[1]);
+        let (places, size) = begun(384, |image, component, camera, memory| {
+            let search = WholeFrame::near(image, component, camera, click, memory);
+            let size = expected_size(component, camera);
+            (search.expect("enough memory").places, size)
+        });
+        assert_eq!(places[0].0, click);
+        assert_eq!(places.len() > 1, others, "{click:?}");
+        for (place, _) in &places {
+            let off = f64::hypot(place.column - click.column, place.row - click.row);
+            assert!(off <= size, "{off} of {size}");
+        }
+    }
 }
 
 /// Of points that lie as far from the camera, in any direction from the middle.
