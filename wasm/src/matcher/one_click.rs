@@ -14,14 +14,14 @@ use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, Polarity, RefineMemory};
+use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
-use self::near::{Clicked, Near};
+use self::near::Near;
 use self::offered::{contender, is_open, offered, possible, rivals};
 use super::Matcher;
 use super::answer::{OneClickAnswer, told};
@@ -379,92 +379,6 @@ impl OneClick {
         })
     }
 
-    fn begin_near(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
-        let all = self.work.as_ref().map_or(&[][..], Work::answers);
-        let all = if self.vain.is_some() { &[] } else { all };
-        let middle = model_of(&mut matcher.model)?.model().bounds().centre;
-        let answers = possible(all, &self.calibration, &middle);
-        let near = self.clicked(matcher, |clicked, memory| {
-            Near::begun(clicked, &answers, memory)
-        });
-        self.near = near.unwrap_or(Ok(Near::Over))?;
-        match self.near {
-            Near::Searched(_) => Ok(true),
-            _ => self.end_near(None),
-        }
-    }
-
-    fn step_near(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
-        let Near::Searched(mut near) = core::mem::take(&mut self.near) else {
-            return Ok(false);
-        };
-        let mut buffers = core::mem::take(&mut self.buffers);
-        let more = self.clicked(matcher, |clicked, memory| {
-            near.step(clicked, &mut buffers, memory)
-        });
-        self.buffers = buffers;
-        if more.unwrap_or(Ok(false))? {
-            self.near = Near::Searched(near);
-            return Ok(true);
-        }
-        let found = self.clicked(matcher, |clicked, _| near.found(clicked));
-        let found = found.unwrap_or(Ok(None))?;
-        let found = found.filter(|pose| {
-            let middle = matcher
-                .model
-                .as_ref()
-                .map(|model| model.model().bounds().centre);
-            middle.is_none_or(|middle| self.calibration.may_hold(-pose.transform(&middle)[2]))
-        });
-        let given = found.map(|pose| matcher.given_pose(&pose, &self.seen()));
-        self.end_near(given.transpose()?)
-    }
-
-    /// Calls `with` with the click and the memory to look near it; nothing where a box was drawn.
-    fn clicked<T>(
-        &self,
-        matcher: &mut Matcher,
-        with: impl FnOnce(&Clicked<'_>, (Workspace<'_>, RefineMemory<'_>)) -> Result<T, JsError>,
-    ) -> Option<Result<T, JsError>> {
-        let Prompt::Click(place) = self.prompt else {
-            return None;
-        };
-        let (camera, polarity, film) = (&self.camera, self.polarity, of_pixels(self.known));
-        let hidden = self.beside.as_ref().map(|beside| &*beside.hidden);
-        Some(
-            matcher.with_component(camera, |component, workspace, refine| {
-                self.film.look(|frame| {
-                    with_mask(hidden, camera, |unknown| {
-                        let image = ImageTarget {
-                            frame,
-                            unknown,
-                            polarity,
-                            film,
-                        };
-                        let clicked = Clicked {
-                            image,
-                            component,
-                            camera,
-                            place,
-                        };
-                        with(&clicked, (workspace, refine))
-                    })
-                })
-            }),
-        )
-    }
-
-    /// Takes what was found near the click. Without it the answers of its regions are what there is, or the error.
-    fn end_near(&mut self, given: Option<Vec<OnFrame>>) -> Result<bool, JsError> {
-        self.near = Near::Over;
-        match (given, self.vain.take()) {
-            (Some(given), _) => self.given = given,
-            (None, Some(vain)) => return Err(JsError::new(&vain)),
-            (None, None) => {}
-        }
-        Ok(false)
-    }
-
     fn seen(&self) -> Seen<'_> {
         Seen {
             frame: &self.film,
@@ -571,29 +485,4 @@ impl From<&Answer> for OnFrame {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_prompt_is_a_click_or_a_box() {
-        let click = prompt_of(&[3.0, 4.0]).ok();
-        assert_eq!(click, Some(Prompt::Click(Point::new(3.0, 4.0))));
-        let boxed = prompt_of(&[1.0, 2.0, 3.0, 4.0]).ok();
-        let wanted = Prompt::Box(Point::new(1.0, 2.0), Point::new(3.0, 4.0));
-        assert_eq!(boxed, Some(wanted));
-    }
-
-    /// Knees are filmed from farther away than its library serves; where a file tells the distance they are where it says.
-    #[test]
-    fn a_click_looks_farther_where_nobody_told_the_distance() {
-        let film = FrameImage::from_eight_bit(vec![0; 64 * 64], 64, 64).unwrap();
-        let untold = |calibration: &str| {
-            let click = OneClick::new(&film, calibration, &[31.0, 31.0], Some(false));
-            click.unwrap().untold
-        };
-        let matrix = "image size\n64,64\n\ncamera matrix\n3000,0,31.5\n0,3000,31.5\n0,0,1\n\n\
-            rotation\n1,0,0\n0,1,0\n0,0,1\n\ntranslation\n0\n0\n0\n";
-        assert_eq!(untold(matrix), Some(1000.0));
-        assert_eq!(untold("JT_INTCALIB\n1200\n0\n0\n0.4\n"), None);
-    }
-}
+mod tests;
