@@ -41,14 +41,24 @@ pub fn conclude(
     middle: &Vector3,
 ) -> Vec<Conclusion> {
     let mut film = judged(cells, side_margins, beside, &TrustLimits::USUAL, middle);
-    fill_gaps(&mut film, beside.longest_gap, middle);
     if let Some(shape) = beside.other_shape {
         // Right or not, they are not those of the component whose name they bear.
         film.iter_mut()
             .for_each(|one| one.distrust(Distrust::Shape(shape)));
     }
+    distrust_by_joint(&mut film, beside);
+    doubt_between_doubts(&mut film);
+    doubt_few(&mut film);
+    // Only now is it known which frames are to be trusted; what is taken from these is asked what its joint says as well.
+    fill_gaps(&mut film, beside.longest_gap, middle);
+    distrust_by_joint(&mut film, beside);
+    film
+}
+
+/// Makes poses doubtful against which their joint with the other component speaks.
+fn distrust_by_joint(film: &mut [Conclusion], beside: &KnownBeside<'_>) {
     if let Some(femur) = beside.femur {
-        femur.distrust_impossible(&mut film);
+        femur.distrust_impossible(film);
     }
     for (one, told) in film.iter_mut().zip(beside.joint) {
         match told {
@@ -57,9 +67,6 @@ pub fn conclude(
             None => {}
         }
     }
-    doubt_between_doubts(&mut film);
-    doubt_few(&mut film);
-    film
 }
 
 /// Where a component is in each frame, in the camera's frame at the `middle` of its box, mm; only where its pose is to be trusted by
@@ -114,6 +121,7 @@ fn judged(
 mod tests {
     use super::*;
     use crate::follow::fake::{looked, turned};
+    use crate::pose::Pose;
 
     /// Twelve frames at rest, but for the sixth, which lies so far to the right, mm.
     fn film(off_mm: f64) -> Vec<Cell> {
@@ -137,6 +145,43 @@ mod tests {
         (0..film.len())
             .filter(|&frame| !film[frame].is_trusted())
             .collect()
+    }
+
+    /// A gap is as good as what lies on both sides of it, and what lies there may be doubtful for a reason of the joint, of the film or of the
+    /// model.
+    #[test]
+    fn no_gap_is_filled_from_a_pose_that_is_not_to_be_trusted() {
+        use crate::follow::State;
+        use crate::follow::look::Missing;
+        let mut cells = film(0.0);
+        cells[7] = Cell::on_the_way(looked(Err(Missing::Hidden)));
+        // From here on the tibia is turned as no knee is.
+        for cell in &mut cells[8..] {
+            *cell = Cell::on_the_way(looked(Ok(turned(70.0, 0.1))));
+        }
+        let axes = Pose::IDENTITY;
+        let femur = |turned_deg: f64| KnownFemur {
+            poses: vec![Some(turned(turned_deg, 0.1).pose); cells.len()],
+            axes,
+        };
+        let state = |femur: Option<&KnownFemur>, other_shape, longest_gap| {
+            let beside = KnownBeside {
+                femur,
+                other_shape,
+                longest_gap,
+                ..KnownBeside::default()
+            };
+            let film = conclude(&cells, &[], &beside, &[0.0; 3]);
+            (film[7].state, film[7].pose.is_some())
+        };
+        let (filled, empty) = ((State::Interpolated, true), (State::Untrackable, false));
+        assert_eq!(state(None, None, 1), filled);
+        assert_eq!(state(None, None, 0), empty);
+        assert_eq!(state(Some(&femur(35.0)), None, 1), filled);
+        for deg in [0.0, 70.0, 150.0] {
+            assert_eq!(state(Some(&femur(deg)), None, 1), empty, "{deg}");
+        }
+        assert_eq!(state(None, Some(KneeComponent::Femur), 1), empty);
     }
 
     #[test]
