@@ -13,24 +13,46 @@ const ROUNDING: f64 = 0.29;
 ///
 /// It is the median of the absolute second differences along rows: edges are few, and slopes have no second difference
 /// (after Immerkaer, *Fast noise variance estimation*, CVIU 64, 1996).
+///
+/// Frames of fewer bits that are kept in more have grey values that are multiples of a step: it is measured in steps.
 pub(crate) fn noise<P: Pixel>(frame: &Frame<'_, P>) -> f64 {
+    let step = step(frame);
     let mut shift = 0;
     loop {
-        let (counts, all) = differences(frame, shift);
+        let (counts, all) = differences(frame, step, shift);
         let median = median_bin(&counts, all);
         // The last bin also counts all larger differences; if the median lies there, the bins must be wider.
         if median < (BINS - 1) as f64 || shift >= u16::BITS {
             // A whole number stands for the values that round to it.
             let median = median * f64::from(1u32 << shift) - 0.5;
             // A second difference has the variance 6, the median of a normal deviate's size is 0.6745.
-            return (median / (0.6745 * fluoropose::math::sqrt(6.0))).max(ROUNDING);
+            let steps = (median / (0.6745 * fluoropose::math::sqrt(6.0))).max(ROUNDING);
+            return f64::from(step) * steps;
         }
         shift += 4;
     }
 }
 
-/// How many second differences fall into each bin of `2^shift` grey values, and how many there are.
-fn differences<P: Pixel>(frame: &Frame<'_, P>, shift: u32) -> ([u32; BINS], u32) {
+/// The greatest number of grey values of which all differences between neighbours in a row are multiples; 1 without any difference.
+fn step<P: Pixel>(frame: &Frame<'_, P>) -> u32 {
+    let mut step = 0;
+    for row in (0..frame.height()).step_by(EVERY) {
+        for two in frame.row(row).windows(2) {
+            let [a, b]: [u32; 2] = [two[0], two[1]].map(Into::into);
+            let mut rest = a.abs_diff(b);
+            while rest != 0 {
+                (step, rest) = (rest, step % rest);
+            }
+            if step == 1 {
+                return 1;
+            }
+        }
+    }
+    step.max(1)
+}
+
+/// How many second differences fall into each bin of `2^shift` steps, and how many there are.
+fn differences<P: Pixel>(frame: &Frame<'_, P>, step: u32, shift: u32) -> ([u32; BINS], u32) {
     let mut counts = [0u32; BINS];
     let mut all = 0;
     for row in (0..frame.height()).step_by(EVERY) {
@@ -38,7 +60,7 @@ fn differences<P: Pixel>(frame: &Frame<'_, P>, shift: u32) -> ([u32; BINS], u32)
             let [a, b, c]: [u32; 3] = [three[0], three[1], three[2]].map(Into::into);
             // Collimators and saturated air show no noise.
             if a != b || b != c {
-                let bin = ((a + c).abs_diff(2 * b) >> shift) as usize;
+                let bin = ((a + c).abs_diff(2 * b) / step >> shift) as usize;
                 counts[bin.min(BINS - 1)] += 1;
                 all += 1;
             }
@@ -74,6 +96,25 @@ mod tests {
             let pixels = drawn.sixteen_bit();
             let found = noise(&Frame::new(&pixels, 160, 120, 160).expect("fits"));
             assert!((found / sigma - 1.0).abs() < 0.1, "{found} for {sigma}");
+        }
+    }
+
+    /// Eight bits that are kept in sixteen, or twelve of them, have steps of many grey values: what rounding leaves is a part of these.
+    #[test]
+    fn in_other_units_a_frame_has_as_many_times_the_noise() {
+        for sigma in [0.0, 0.2, 0.5, 1.0, 3.0] {
+            let mut drawn = SyntheticFrame::new(160, 120, 150.0);
+            drawn.disc([80.0, 60.0], 30.0, 90.0);
+            drawn.add_noise(sigma, 7);
+            let pixels = drawn.sixteen_bit();
+            let own = noise(&Frame::new(&pixels, 160, 120, 160).expect("fits"));
+            for (times, more) in [(1, 300), (16, 0), (256, 0), (257, 255), (3, 1)] {
+                let pixels: std::vec::Vec<u16> =
+                    pixels.iter().map(|grey| times * grey + more).collect();
+                let found = noise(&Frame::new(&pixels, 160, 120, 160).expect("fits"));
+                let ratio = found / (f64::from(times) * own);
+                assert!((ratio - 1.0).abs() < 1e-9, "{ratio} times {times}, {sigma}");
+            }
         }
     }
 
