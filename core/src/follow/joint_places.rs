@@ -3,6 +3,7 @@
 
 use heapless::Vec;
 
+use super::contrast::usual_step;
 use super::in_joint::{BENDS, InJoint, Limb};
 use super::near::near_poses;
 use super::subject::Subject;
@@ -16,11 +17,6 @@ pub const JOINT_PLACES: usize = 12;
 
 /// How far around an expected place it is looked for, mm.
 const REACH_MM: f64 = 25.0;
-/// Places at which a frame is asked how much it changes, to a side.
-const ASKED: usize = 64;
-/// Across which it is asked, pixels to either side, and how many times the mean change a step of metal is.
-const HALF_PX: f64 = 4.0;
-const STEPS: f64 = 3.0;
 
 /// The places of a frame, looked for in steps: one for each pose that the joint leaves.
 #[derive(Clone, Debug)]
@@ -96,83 +92,4 @@ fn reach_px(subject: &Subject<'_>, pose: &Pose) -> f64 {
     let depth = -pose.transform(&subject.model.bounds().centre)[2];
     let [fx, fy] = subject.camera.focal();
     REACH_MM * fx.max(fy) / depth.max(1.0)
-}
-
-/// What a step of metal is at least, by how much the frame changes over some pixels everywhere.
-pub(super) fn usual_step(frame: &dyn Grey) -> f64 {
-    let (width, height) = frame.size();
-    let at = |k: usize, side: usize| (2 * k + 1) as f64 * side as f64 / (2 * ASKED) as f64;
-    let (mut sum, mut count) = (0.0, 0usize);
-    for [down, right] in (0..ASKED * ASKED).map(|k| [k / ASKED, k % ASKED]) {
-        let (column, row) = (at(right, width), at(down, height));
-        for (x, y) in [(HALF_PX, 0.0), (0.0, HALF_PX)] {
-            let sides = (frame.at(column + x, row + y), frame.at(column - x, row - y));
-            if let (Some(one), Some(other)) = sides {
-                sum += (one - other).abs();
-                count += 1;
-            }
-        }
-    }
-    // Of a frame without any nothing is a step.
-    (STEPS * sum / count.max(1) as f64).max(f64::MIN_POSITIVE)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::image::frame::Frame;
-    use proptest::prelude::*;
-    use std::vec::Vec as Many;
-
-    fn step_of(pixels: &[u8], width: usize, height: usize) -> f64 {
-        usual_step(&Frame::new(pixels, width, height, width).expect("valid"))
-    }
-
-    properties! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
-        /// Of a frame with as many pixels to a side as it is asked at, each is asked: the naive way compares all that are eight apart.
-        #[test]
-        fn a_usual_step_is_three_times_the_mean_change_over_eight_pixels(seed in 0u32..1000, dark in 0usize..64) {
-            let mut random = seed;
-            let pixels: Many<u8> = (0..ASKED * ASKED).map(|k| {
-                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                if k % ASKED < dark { 7 } else { (random >> 24) as u8 }
-            }).collect();
-            let at = |column: usize, row: usize| f64::from(pixels[row * ASKED + column]);
-            let mut changes = Many::new();
-            for (one, other) in (0..ASKED * ASKED).map(|k| (k % ASKED, k / ASKED)) {
-                if one + 8 < ASKED {
-                    changes.push((at(one + 8, other) - at(one, other)).abs());
-                    changes.push((at(other, one + 8) - at(other, one)).abs());
-                }
-            }
-            let wanted = 3.0 * changes.iter().sum::<f64>() / changes.len() as f64;
-            let found = step_of(&pixels, ASKED, ASKED);
-            prop_assert!((found - wanted).abs() < 1e-9 * wanted.max(1.0), "{found} {wanted}");
-        }
-    }
-
-    /// Of any size; what rises by one a pixel, either way, changes by eight.
-    #[test]
-    fn an_even_slope_has_one_step_whatever_the_size_of_its_frame() {
-        for (width, height) in [(64, 64), (150, 40), (23, 90)] {
-            for (right, down) in [(1, 1), (-1, 1), (-1, -1)] {
-                let grey = |k: usize| {
-                    let (column, row) = ((k % width) as i32, (k / width) as i32);
-                    let of = |sign: i32, at: i32, side: usize| {
-                        if sign > 0 { at } else { side as i32 - 1 - at }
-                    };
-                    (of(right, column, width) + of(down, row, height)) as u8
-                };
-                let pixels: Many<u8> = (0..width * height).map(grey).collect();
-                let found = step_of(&pixels, width, height);
-                assert!((found - 24.0).abs() < 1e-9, "{width} {height}: {found}");
-            }
-        }
-        let (blank, small) = (step_of(&[9; 400], 20, 20), step_of(&[9, 200], 2, 1));
-        assert!(
-            blank > 0.0 && blank < 1e-9 && small > 0.0,
-            "what divides by it"
-        );
-    }
 }

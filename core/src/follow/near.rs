@@ -3,6 +3,7 @@
 
 use heapless::Vec;
 
+use super::contrast::usual_step;
 use super::subject::Subject;
 use super::thinned::Thinned;
 use crate::finder::nearby::about;
@@ -54,7 +55,7 @@ struct Place {
 
 /// The poses near an expected one whose outlines have the strongest edges, each with the mean step along its outline in
 /// usual ones: within `reach_px` pixels, 12 degrees in the image plane and 5 out of it. Before each that is turned out of it comes the same without
-/// that. `step` is the usual step of grey values.
+/// that. `step` is the usual step of grey values; where that is none, as of a pose that lies beside all edges, it is told by the frame.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn at the pose.
@@ -67,6 +68,11 @@ pub fn near_poses(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<(f64, Pose), NEAR>, RefineError> {
     let middle = subject.model.bounds().centre;
+    let step = if step > 0.0 {
+        step
+    } else {
+        usual_step(image.frame)
+    };
     let mut outline_at = |out: [f64; 2]| {
         let pose = about(&middle, expected, &turn_out(out), [0.0; 3]);
         Outline::of(subject, &pose, memory)

@@ -1,6 +1,6 @@
 //! A pose that somebody set, brought onto a frame: from there, and from around there where that leads to none that is good.
 
-use super::joint_places::usual_step;
+use super::contrast::usual_step;
 use super::look::{REACH_PX, REFINED};
 use super::near::near_poses;
 use super::subject::Subject;

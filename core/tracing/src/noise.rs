@@ -60,7 +60,7 @@ fn differences<P: Pixel>(frame: &Frame<'_, P>, step: u32, shift: u32) -> ([u32; 
             let [a, b, c]: [u32; 3] = [three[0], three[1], three[2]].map(Into::into);
             // Collimators and saturated air show no noise.
             if a != b || b != c {
-                let bin = ((a + c).abs_diff(2 * b) / step >> shift) as usize;
+                let bin = (((a + c).abs_diff(2 * b) / step) >> shift) as usize;
                 counts[bin.min(BINS - 1)] += 1;
                 all += 1;
             }

@@ -264,16 +264,20 @@ fn the_best_place_near_an_expected_pose_is_where_the_part_is_seen() {
         let pixels = fake::grey(&fake::crank(), subject.camera, &right);
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("valid");
         let image = ImageTarget::dark(&frame);
-        let found = near_poses(subject, &image, &expected, 18.0, 160.0, memory).expect("in front");
-        assert!(!found.is_empty() && found[0].0 > 0.9, "{found:?}");
-        let middle = subject.model.bounds().centre;
-        let off = subtract(&found[0].1.transform(&middle), &right.transform(&middle));
-        let deg = geodesic_deg(&found[0].1.rotation, &right.rotation);
-        // Within a step: readings lie four pixels to each side.
-        assert!(
-            norm(&off) < 2.5 && deg < 1.1 * IN_PLANE_DEG,
-            "{off:?} {deg}"
-        );
+        // What a pose beside all edges has for a step is none, or of the wrong sign.
+        for step in [160.0, 0.0, -160.0, f64::NAN] {
+            let found =
+                near_poses(subject, &image, &expected, 18.0, step, memory).expect("in front");
+            assert!(!found.is_empty() && found[0].0 > 0.9, "{step}: {found:?}");
+            let middle = subject.model.bounds().centre;
+            let off = subtract(&found[0].1.transform(&middle), &right.transform(&middle));
+            let deg = geodesic_deg(&found[0].1.rotation, &right.rotation);
+            // Within a step: readings lie four pixels to each side.
+            assert!(
+                norm(&off) < 2.5 && deg < 1.1 * IN_PLANE_DEG,
+                "{step}: {off:?} {deg}"
+            );
+        }
     });
 }
 
