@@ -113,8 +113,9 @@ pub struct WholeFrame {
     places: Vec<(Point, f64), PLACES>,
     /// So many of them were given by their shape, and come first.
     shaped: usize,
-    /// Whether places are looked at in passing, to choose among them.
+    /// Whether places are looked at in passing, to choose among them; and of how many that was done.
     in_passing: bool,
+    passed: usize,
     /// Number of the place that is tried.
     at: usize,
     click: Option<OneClick>,
@@ -209,6 +210,7 @@ impl WholeFrame {
             places: all,
             shaped,
             in_passing: false,
+            passed: 0,
             at: 0,
             click: None,
             found: None,
@@ -236,12 +238,20 @@ impl WholeFrame {
             Some(Progress::Regions(part) | Progress::Poses(part)) => part,
             Some(Progress::Done) => 1.0,
         };
-        let at = match (self.in_passing, of_click) {
-            // To look in passing is a part of the whole.
+        self.part_done(of_click)
+    }
+
+    /// The same with such a part of the click in hand done: to look in passing is a part of the whole, and of what is looked at so few are tried.
+    fn part_done(&self, of_click: f64) -> f64 {
+        let dark = self.places.len() - self.shaped;
+        let passing = PASSING * if dark > TRIED { dark } else { self.passed } as f64;
+        let all = (self.shaped + dark.min(TRIED)) as f64 + passing;
+        let done = match (self.in_passing, self.at < self.shaped) {
             (true, _) => self.shaped as f64 + PASSING * (self.at - self.shaped) as f64,
-            (false, part) => self.at as f64 + part,
+            (false, true) => self.at as f64 + of_click,
+            (false, false) => self.at as f64 + of_click + passing,
         };
-        at / self.places.len().max(1) as f64
+        done / all.max(1.0)
     }
 
     /// The best that was found so far, where it is good.
@@ -362,6 +372,7 @@ impl WholeFrame {
     fn keep_the_likeliest(&mut self) {
         let seen = self.places.get_mut(self.shaped..).unwrap_or_default();
         seen.sort_unstable_by(|one, other| other.1.total_cmp(&one.1));
+        self.passed = seen.len();
         self.places.truncate(self.shaped + TRIED);
         (self.at, self.in_passing) = (self.shaped, false);
     }

@@ -132,3 +132,49 @@ fn large_things_are_looked_for_from_afar_and_small_ones_as_they_are() {
     assert_eq!([dark, all], [shaped; 2]);
     assert_eq!(searched(192), [Some(192); 3]);
 }
+
+/// Dark places by the number of those that are shaped: in passing first, where they are many, then those that are kept.
+#[test]
+fn what_is_done_of_a_search_never_becomes_less_and_ends_with_all_of_it() {
+    let camera = Camera::new(64, 64, [300.0; 2], [32.0; 2]).expect("valid");
+    for (shaped, dark) in [(0, 16), (4, 16), (2, 5), (0, 4), (3, 0), (4, 2)] {
+        let place = (Point::new(30.0, 30.0), 0.5);
+        let mut search = WholeFrame {
+            beside: None,
+            places: (0..shaped + dark).map(|_| place).collect(),
+            shaped,
+            in_passing: false,
+            passed: 0,
+            at: 0,
+            click: None,
+            found: None,
+            agreed: false,
+            reduction: Reduction::of(f64::NAN, &camera),
+            surround: None,
+        };
+        let mut before = 0.0;
+        let mut at_least = |search: &WholeFrame, part: f64| {
+            let done = search.part_done(part);
+            assert!(
+                (before..=1.0 + 1e-12).contains(&done),
+                "{shaped} {dark}: {done} after {before}"
+            );
+            before = done;
+        };
+        while search.at < search.places.len() {
+            if search.at == shaped && search.places.len() > shaped + TRIED {
+                search.in_passing = true;
+                while search.at < search.places.len() {
+                    at_least(&search, 0.3);
+                    search.at += 1;
+                }
+                search.keep_the_likeliest();
+            }
+            for part in [0.0, 0.5, 1.0] {
+                at_least(&search, part);
+            }
+            search.at += 1;
+        }
+        assert!((before - 1.0).abs() < 1e-12, "{shaped} {dark}: {before}");
+    }
+}
