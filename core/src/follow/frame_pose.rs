@@ -21,7 +21,8 @@ pub struct FramePose {
     pub film_steps: [[f64; 6]; 2],
     /// How well the model's outline is met by edges.
     pub fit: Fit,
-    /// What remains between outline and edges: the root of twice the robust loss, pixels.
+    /// What remains between outline and edges: the root of twice the robust loss, pixels; of a pose as a person gave it, the root mean square
+    /// distance ([`Fit::misfit_px`]), which is another measure.
     pub misfit_px: f64,
     /// How much darker it is inside than outside.
     pub contrast: Contrast,

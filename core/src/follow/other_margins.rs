@@ -80,9 +80,10 @@ fn are_apart(sample: &SideSample) -> bool {
             .is_some_and(|other| off(other) >= ONE_DEG)
 }
 
-/// The median of what poses leave, pixels.
+/// The median of what poses leave, pixels; those that a person gave leave what a hand does.
 fn usual_misfit(cells: &[Cell]) -> f64 {
-    let found = cells.iter().filter_map(Cell::found);
+    let free = cells.iter().filter(|cell| !cell.fixed);
+    let found = free.filter_map(Cell::found);
     let mut all: Vec<f64> = found.map(|found| found.misfit_px).collect();
     all.sort_unstable_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(0.0)
@@ -282,6 +283,16 @@ mod tests {
         };
         assert!(margin(0.595).is_some_and(|margin| margin > 1.0));
         assert_eq!(margin(0.4), Some(0.0));
+    }
+
+    #[test]
+    fn what_hands_leave_is_not_what_is_usual() {
+        let (_, mut cells) = film([0.62; 7], None);
+        for cell in &mut cells[..4] {
+            *cell = Cell::from(&Anchor::found(0, turned(0.0, 1.9)));
+            cell.fixed = true;
+        }
+        assert_eq!(usual_misfit(&cells), CHOSEN);
     }
 
     #[test]

@@ -56,7 +56,10 @@ pub fn second_looks(cells: &[Cell], middle: &Vector3) -> Vec<SecondLook> {
     // One beside a bad frame jumps, and is good by itself.
     let fits = |at: usize| pose(at).filter(|_| trusts[at].by_itself <= STANDS_OUT);
     let known = |at: usize| Some((at, plain(at)?));
-    let Some(usual) = usual((0..cells.len()).filter_map(plain)) else {
+    // What a hand leaves is not usual.
+    let free = (0..cells.len()).filter(|&at| !cells[at].fixed);
+    let all = || (0..cells.len()).filter_map(plain);
+    let Some(usual) = usual(free.filter_map(plain)).or_else(|| usual(all())) else {
         return Vec::new();
     };
     let one = |frame: usize| {
@@ -196,6 +199,36 @@ mod tests {
         let mut given = film(&[7]);
         given[7].fixed = true;
         assert!(second_looks(&given, &MIDDLE).is_empty());
+    }
+
+    #[test]
+    fn what_hands_leave_is_not_what_is_usual() {
+        let film = |hands: &[usize]| -> Vec<Cell> {
+            let one = |k: usize| {
+                let px = match (hands.contains(&k), k) {
+                    (true, _) => 1.9,
+                    (false, 8) => 0.9,
+                    (false, _) => 0.45,
+                };
+                Cell {
+                    fixed: hands.contains(&k),
+                    ..cell(4.0 * k as f64, px)
+                }
+            };
+            (0..20).map(one).collect()
+        };
+        for hands in [
+            &[][..],
+            &[3],
+            &[0, 1, 2, 3, 4, 5, 10, 11, 12, 13, 14, 15, 16],
+        ] {
+            let looks = second_looks(&film(hands), &MIDDLE);
+            let told: Vec<(usize, f64)> = looks
+                .iter()
+                .map(|look| (look.frame, look.usual.misfit_px))
+                .collect();
+            assert_eq!(told, [(8, 0.45)], "{hands:?}");
+        }
     }
 
     const USUAL: Usual = Usual {

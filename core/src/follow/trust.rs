@@ -64,9 +64,13 @@ pub fn judge_film(
     sorted: &mut [f64],
     trusts: &mut [Trust],
 ) {
+    // What a hand leaves is not usual, and is measured otherwise.
+    let is_free = |one: &&FrameEvidence| !one.fixed && one.found.is_some();
+    let any_free = film.iter().any(|one| is_free(&one));
+    let free = || film.iter().filter(|one| is_free(one) || !any_free);
     let usual = Usual {
-        misfit_px: lower_quartile(film.iter().filter_map(misfit), sorted),
-        strength: median(film.iter().filter_map(strength), sorted),
+        misfit_px: lower_quartile(free().filter_map(misfit), sorted),
+        strength: median(free().filter_map(strength), sorted),
         jump: [0, 1].map(|k| {
             let jumps = (0..film.len()).filter_map(|at| Some(jump(film, at, middle)?[k]));
             median(jumps, sorted)

@@ -357,3 +357,35 @@ fn a_pose_between_two_that_are_doubtful_for_themselves_is_not() {
     let words = trusts.map(|trust| trust.distrust.map(|why| why.word()));
     assert_eq!(words, [Some("residual"), None, Some("residual")]);
 }
+
+/// However many poses a person gave, and however much those leave: a hand does not see a pixel.
+#[test]
+fn what_hands_leave_is_not_what_is_usual() {
+    let doubtful = |hands: usize, hand_px: f64| {
+        let one = |misfit_px: f64, fixed: bool| FrameEvidence {
+            found: Some(turned(0.0, misfit_px)),
+            fixed,
+            ..FrameEvidence::default()
+        };
+        let mut film = std::vec![one(hand_px, true); hands];
+        film.extend([0.3, 0.3, 0.3, 0.85].map(|px| one(px, false)));
+        let (mut sorted, mut trusts) = (
+            std::vec![0.0; film.len()],
+            std::vec![Trust::default(); film.len()],
+        );
+        judge_film(
+            &film,
+            &TrustLimits::USUAL,
+            &[0.0; 3],
+            &mut sorted,
+            &mut trusts,
+        );
+        let is_doubtful = |trust: &Trust| trust.distrust.is_some();
+        trusts.iter().map(is_doubtful).collect::<std::vec::Vec<_>>()
+    };
+    for (hands, hand_px) in [(0, 0.0), (1, 1.9), (8, 1.9), (8, 0.05)] {
+        let mut wanted = std::vec![false; hands + 4];
+        wanted[hands + 3] = true;
+        assert_eq!(doubtful(hands, hand_px), wanted, "{hands} {hand_px}");
+    }
+}
