@@ -75,7 +75,7 @@ pub fn judge_film(
             let jumps = (0..film.len()).filter_map(|at| Some(jump(film, at, middle)?[k]));
             median(jumps, sorted)
         }),
-        depth_mm: median(film.iter().filter_map(|one| deeper(one, middle)), sorted),
+        depth_mm: middle_one(film.iter().filter_map(|one| deeper(one, middle)), sorted),
     };
     for (at, trust) in trusts.iter_mut().enumerate().take(film.len()) {
         *trust = judge(film, at, limits, middle, &usual);
@@ -245,6 +245,17 @@ fn open_deg(covariance: Option<&PoseCovariance>) -> f64 {
 fn median(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
     let sorted = sort(values, sorted);
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The same, but of an even number of them the mean of both in the middle: that of numbers with their signs turned is its own with its sign turned.
+fn middle_one(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
+    let sorted = sort(values, sorted);
+    let at = |index: Option<usize>| index.and_then(|at| sorted.get(at)).copied().unwrap_or(0.0);
+    let count = sorted.len();
+    f64::midpoint(
+        at(count.checked_sub(1).map(|last| last / 2)),
+        at(Some(count / 2)),
+    )
 }
 
 /// The number that a quarter of them lies below, and the greater one of two; 0 without any.

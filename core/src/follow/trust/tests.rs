@@ -389,3 +389,40 @@ fn what_hands_leave_is_not_what_is_usual() {
         assert_eq!(doubtful(hands, hand_px), wanted, "{hands} {hand_px}");
     }
 }
+
+/// The one lies as much farther away than the other as the other lies nearer: what is usual of it is the same seen from either.
+#[test]
+fn how_far_both_components_lie_apart_is_doubted_of_both_alike() {
+    let doubtful = |apart: &[f64], from_other: bool| {
+        let one = |&mm: &f64| {
+            let (own, other) = if from_other { (-mm, 0.0) } else { (0.0, -mm) };
+            let mut found = turned(0.0, 0.1);
+            found.pose.translation = [0.0, 0.0, own - 900.0];
+            FrameEvidence {
+                found: Some(found),
+                other_middle: Some([0.0, 0.0, other - 900.0]),
+                ..FrameEvidence::default()
+            }
+        };
+        let film: std::vec::Vec<FrameEvidence> = apart.iter().map(one).collect();
+        let count = film.len();
+        let (mut sorted, mut trusts) = (std::vec![0.0; count], std::vec![Trust::default(); count]);
+        let usual = &TrustLimits::USUAL;
+        judge_film(&film, usual, &[0.0; 3], &mut sorted, &mut trusts);
+        let word = |trust: &Trust| trust.distrust.map(|why| why.word());
+        trusts.iter().map(word).collect::<std::vec::Vec<_>>()
+    };
+    for apart in [
+        &[0.0, 50.0][..],
+        &[-25.0, 25.0],
+        &[30.0, -55.0],
+        &[3.0],
+        &[4.0, 5.0, 50.0, 55.0],
+        &[4.0, 5.0, 6.0, 50.0],
+    ] {
+        assert_eq!(doubtful(apart, true), doubtful(apart, false), "{apart:?}");
+    }
+    // Of two nobody tells which is usual.
+    assert_eq!(doubtful(&[0.0, 50.0], true), [None; 2]);
+    assert_eq!(doubtful(&[-58.0, 58.0], true), [Some("depths"); 2]);
+}
