@@ -262,3 +262,38 @@ fn normals_are_square_to_the_line() {
         }
     }
 }
+
+/// A picture shown the other way round, and one that is mirrored, are snapped to the same places.
+#[test]
+fn a_negative_and_a_mirrored_picture_have_their_edges_where_the_picture_has() {
+    for seed in 0..12 {
+        let mut drawn = SyntheticFrame::new(160, 150, 190.0);
+        drawn.disc(MIDDLE, 50.0, 110.0);
+        drawn.disc([130.0, 60.0], 6.0, 150.0);
+        drawn.add_noise(14.0, 20 + seed);
+        let points = rough(60 + 7 * seed as usize);
+        let turned = |of: fn(&SyntheticFrame, usize) -> f64| {
+            let grey = (0..160 * 150).map(|k| of(&drawn, k)).collect();
+            SyntheticFrame {
+                grey,
+                ..SyntheticFrame::new(160, 150, 0.0)
+            }
+        };
+        let (own, _) = snapped(&drawn, &points, &RING);
+        let bright = Snap {
+            inside: Inside::Bright,
+            ..RING
+        };
+        let negative = turned(|drawn, k| 255.0 - drawn.grey[k].round());
+        let (other, _) = snapped(&negative, &points, &bright);
+        let mirrored = turned(|drawn, k| drawn.grey[k / 160 * 160 + 159 - k % 160]);
+        let across = |at: Point| Point::new(160.0 - at.column, at.row);
+        let there: Vec<Point> = points.iter().map(|&at| across(at)).collect();
+        let (third, _) = snapped(&mirrored, &there, &RING);
+        assert_eq!([other.len(), third.len()], [own.len(); 2], "{seed}");
+        for (own, (other, third)) in own.iter().zip(other.iter().zip(&third)) {
+            let off = distance(own.at, other.at).max(distance(own.at, across(third.at)));
+            assert!(off < 1e-6, "{seed}: {own:?} {other:?} {third:?}");
+        }
+    }
+}

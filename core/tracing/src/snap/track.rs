@@ -210,10 +210,13 @@ impl Tracker<'_> {
         for _ in 0..CLIMB {
             let here = self.slope(number, state);
             let around = [state.saturating_sub(1), (state + 1).min(STATES - 1)];
-            let better = around
-                .into_iter()
-                .find(|&other| self.slope(number, other) > here);
-            state = better.unwrap_or(state);
+            // Between two tops the steeper way: which of them comes first depends on the way that a frame is shown.
+            let [before, after] = around.map(|other| self.slope(number, other));
+            if before > here.max(after) {
+                state = around[0];
+            } else if after > here.max(before) {
+                state = around[1];
+            }
         }
         state
     }
