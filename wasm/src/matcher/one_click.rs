@@ -2,6 +2,7 @@
 
 mod near;
 mod offered;
+mod steps_near;
 
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
