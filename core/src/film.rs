@@ -10,6 +10,7 @@
 //! - [`SquareChoice`]: the squares of pixels that a film finer than its blur is read in.
 //! - [`given`]: what a person states instead. [`pool`]: the profiles of a study, for callers that have an allocator.
 
+mod clipped;
 mod drawn;
 pub(crate) mod edge;
 pub mod estimate;
@@ -23,6 +24,7 @@ pub mod profile;
 mod sharpening;
 mod squares;
 
+pub use clipped::Clipped;
 pub use estimate::{FilmEstimate, estimate, estimate_with};
 pub use given::{DisplayKind, GivenFilm};
 pub use lines::{LineMemory, PathLine};

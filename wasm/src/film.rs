@@ -65,6 +65,13 @@ impl FilmStudy {
         Ok(found.map(|estimate| self.facts(estimate)))
     }
 
+    /// That grey values were cut off, so that the profiles tell no constants, as a person would say it, without a full stop; nothing where they were
+    /// not.
+    #[must_use]
+    pub fn clipped(&self) -> Option<String> {
+        self.pool.clipped().map(|clipped| clipped.to_string())
+    }
+
     /// Says with what a component was followed, as `FilmFacts.model` gives it; one component after the other.
     ///
     /// # Errors

@@ -21,6 +21,7 @@ use solver::Fit;
 use unknowns::{AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, RADIUS, UNKNOWNS};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
+use super::clipped::Clipped;
 use super::given::{DisplayKind, GivenFilm};
 use super::model::{FilmConstants, FilmModel};
 use super::profile::FilmProfile;
@@ -116,7 +117,8 @@ impl fmt::Display for FilmEstimate {
 }
 
 /// Estimates the constants of a film from profiles of `components` components: the same film, any frames. The profiles of a
-/// frame and component stand together, in order along the outline where that is known. `None` where they do not tell.
+/// frame and component stand together, in order along the outline where that is known. `None` where they do not tell, as where grey values were cut off
+/// ([`clipped`]).
 #[must_use]
 pub fn estimate(profiles: &mut [FilmProfile], components: usize) -> Option<FilmEstimate> {
     estimate_with(profiles, components, GivenFilm::default())
@@ -130,6 +132,9 @@ pub fn estimate_with(
     given: GivenFilm,
 ) -> Option<FilmEstimate> {
     let contrast = contrast(profiles)?;
+    if Clipped::of(profiles, contrast).is_some() {
+        return None;
+    }
     profiles.iter_mut().for_each(|profile| profile.used = true);
     let mut fit = Fit {
         profiles,
@@ -196,6 +201,12 @@ fn least_deviation(
         (AMOUNT | RADIUS, _) if !sharpened => 0.0,
         _ => LEAST_DEVIATION[k.min(2)],
     }
+}
+
+/// Where grey values were cut off, so that profiles do not tell; `None` where they were not.
+#[must_use]
+pub fn clipped(profiles: &[FilmProfile]) -> Option<Clipped> {
+    Clipped::of(profiles, contrast(profiles)?)
 }
 
 /// The mean difference between grey values beside metal and behind it; `None` where metal is not darker.

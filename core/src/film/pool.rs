@@ -3,8 +3,9 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
+use super::clipped::Clipped;
 use super::estimate::standing::{is_other, leads_elsewhere};
-use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
+use super::estimate::{FilmEstimate, MOST_COMPONENTS, clipped, estimate_with};
 use super::given::GivenFilm;
 use super::model::FilmModel;
 use super::profile::FilmProfile;
@@ -92,6 +93,13 @@ impl FilmPool {
         let mut found = estimate_with(&mut profiles, 1 + usize::from(components?), given)?;
         found.constants.square_px = self.square_px;
         Some(found)
+    }
+
+    /// Where grey values were cut off, so that the profiles do not tell; `None` where they were not.
+    #[must_use]
+    pub fn clipped(&self) -> Option<Clipped> {
+        let profiles: Vec<FilmProfile> = self.read.values().flatten().copied().collect();
+        clipped(&profiles)
     }
 }
 

@@ -12,6 +12,7 @@ import { indexOfFrame } from '../document/frame_index';
 import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
+import { asSentence } from '../texts/sentences';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { Corrected, FilmFacts, FilmProtocol, FollowedProfiles, ReadProfiles } from '../workers/protocol/film';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -58,6 +59,8 @@ export class FilmReader {
   readonly #rested = new WeakMap<KnownFilm, readonly Witness[]>();
   /** How often these very poses were asked. */
   #turns = 0;
+  /** Whether it was said that the frames' grey values are cut off. */
+  #isClipped = false;
   #asked: string | null = null;
   /** Constants that somebody stated, while they are not taken. */
   #tried: string | null = null;
@@ -369,13 +372,21 @@ export class FilmReader {
     }
     try {
       const facts = await this.#films.call('estimate', { read, stated, side: this.#side });
-      this.#take(facts && this.#knownFrom(facts));
+      const isClipped = facts !== null && 'clipped' in facts;
+      this.#sayClipped(isClipped ? facts.clipped : null);
+      this.#take(facts && !isClipped ? this.#knownFrom(facts) : null);
     } catch (error) {
       // What the worker knew may be gone with it.
       for (const [key, { witness }] of this.#entries) this.#entries.set(key, { witness, isRead: false });
       this.#beside.forgotten();
       throw error;
     }
+  }
+
+  /** That grey values are cut off is said when it is seen first, whatever part of the outlines that is of later. */
+  #sayClipped(clipped: string | null): void {
+    if (clipped !== null && !this.#isClipped) this.#services.store.say('info', asSentence(clipped), undefined, 'film');
+    this.#isClipped = clipped !== null;
   }
 
   /** None where the frame cannot be held against the pose. */

@@ -16,7 +16,9 @@ serve<FilmProtocol>({
     await ready;
     if (stated.constants) return asStated(stated.constants);
     const kept = takeAll(read, side);
-    return told(kept.estimate(stated.display ?? undefined, stated.blur ?? undefined), COMPONENT_NAMES);
+    const found = told(kept.estimate(stated.display ?? undefined, stated.blur ?? undefined), COMPONENT_NAMES);
+    const clipped = found === null && kept.clipped();
+    return clipped ? { clipped } : found;
   },
   learntAgain: async ({ followed, stated }) => {
     await ready;

@@ -65,7 +65,8 @@ export interface FilmFacts {
 export interface FilmProtocol {
   estimate: {
     input: { readonly read: readonly ReadProfiles[]; readonly stated: StatedFilm; readonly side: number };
-    output: FilmFacts | null;
+    /** Why the frames tell nothing, where their grey values are cut off: a sentence without its full stop. */
+    output: FilmFacts | { readonly clipped: string } | null;
     progress: never;
   };
   /** Begins to find the squares of pixels that the film is read in. */

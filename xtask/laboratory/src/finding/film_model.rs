@@ -143,14 +143,23 @@ fn film_of(parts: &[Filmed<'_>], stated: &Stated) -> KnownFilm {
         }
     };
     let side = square_px(parts);
-    match read(parts, side, usize::MAX).estimate(given) {
+    let pool = read(parts, side, usize::MAX);
+    let untold = || {
+        match pool.clipped() {
+        Some(clipped) => format!("not told, because {clipped}"),
+        None => "not told by these frames: edges are taken to lie on the outline, and z is uncertain by millimetres".to_owned(),
+    }
+    };
+    match pool.estimate(given) {
         Some(film) => KnownFilm {
-            models: (0..parts.len()).map(|part| Some(film.model(part))).collect(),
+            models: (0..parts.len())
+                .map(|part| Some(film.model(part)))
+                .collect(),
             words: words(&film, parts),
         },
         None => KnownFilm {
             models: vec![None; parts.len()],
-            words: "not told by these frames: edges are taken to lie on the outline, and z is uncertain by millimetres".to_owned(),
+            words: untold(),
         },
     }
 }

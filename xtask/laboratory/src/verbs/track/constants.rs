@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 use super::follow::mark;
 use super::part::Part;
 use super::record::{Films, LearntFrom};
+use super::request::Told;
 use super::run::Run;
 use crate::finding::{Stated, in_squares};
 
@@ -41,9 +42,13 @@ pub(super) fn learn_film(
             .map(|(part, anchors)| profiles(run, part, anchors))
             .collect::<Result<_>>()?;
         run.say("film: its constants are estimated".to_owned());
-        let found = pooled(run.film.square_px(), read).estimate(given);
+        let pool = pooled(run.film.square_px(), read);
+        let found = pool.estimate(given);
         if let Some(found) = &found {
             run.say(format!("film: {found}"));
+        }
+        if let Some(clipped) = pool.clipped() {
+            (run.request.listener)(Told::Remark(format!("film: {clipped}")));
         }
         let models = |number: usize| found.as_ref().map(|found| found.model(number));
         let films: Option<Vec<_>> = (0..parts.len()).map(models).collect();
