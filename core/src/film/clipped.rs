@@ -39,11 +39,23 @@ impl Clipped {
             count as f64 / profiles.len().max(1) as f64
         };
         let clipped = Self {
-            inside: part(&|one| one.mean[INSIDE].iter().any(|value| value - low <= alike)),
-            outside: part(&|one| one.mean[OUTSIDE].iter().any(|value| high - value <= alike)),
+            inside: match is_last(low) {
+                true => part(&|one| one.mean[INSIDE].iter().any(|value| value - low <= alike)),
+                false => 0.0,
+            },
+            outside: match is_last(high) {
+                true => part(&|one| one.mean[OUTSIDE].iter().any(|value| high - value <= alike)),
+                false => 0.0,
+            },
         };
         (clipped.inside > MOST || clipped.outside > MOST).then_some(clipped)
     }
+}
+
+/// Whether a grey value is the first or the last of so many bits, as windows leave it; thick metal without noise is flat at any other. Values of bright
+/// metal come with their signs exchanged.
+fn is_last(value: f32) -> bool {
+    value == 0.0 || (8..=16).any(|bits| value.abs() == ((1_u32 << bits) - 1) as f32)
 }
 
 impl fmt::Display for Clipped {
@@ -66,13 +78,13 @@ mod tests {
     use std::format;
     use std::vec::Vec;
 
-    /// Profiles of a soft edge, each a little brighter than the one before, with values beyond these cut off.
-    fn seen(window: [f32; 2]) -> Vec<FilmProfile> {
+    /// Profiles of a soft edge, each a little brighter than the one before and all by so much, with values beyond these cut off.
+    fn seen(window: [f32; 2], brighter: f32) -> Vec<FilmProfile> {
         let one = |number: usize| {
             let mut profile = FilmProfile::default();
             for (k, value) in profile.mean.iter_mut().enumerate() {
                 let edge = 1.0 / (1.0 + crate::math::exp(-(k as f64 - 11.5) / 1.5)) as f32;
-                let grey = 60.0 + 80.0 * edge + 0.2 * number as f32 + 0.3 * k as f32;
+                let grey = brighter + 60.0 + 80.0 * edge + 0.2 * number as f32 + 0.3 * k as f32;
                 *value = grey.clamp(window[0], window[1]);
             }
             profile
@@ -82,13 +94,20 @@ mod tests {
 
     #[test]
     fn values_that_are_cut_off_at_either_end_are_told_and_a_whole_film_is_not() {
-        assert_eq!(Clipped::of(&seen([0.0, 255.0]), 80.0), None);
-        let dark = Clipped::of(&seen([75.0, 255.0]), 80.0).expect("cut off");
+        assert_eq!(Clipped::of(&seen([0.0, 255.0], 0.0), 80.0), None);
+        let dark = Clipped::of(&seen([0.0, 255.0], -75.0), 80.0).expect("cut off");
         assert!(dark.inside > 0.9 && dark.outside < 0.1, "{dark:?}");
         assert!(format!("{dark}").contains("metal has the last value"));
-        let bright = Clipped::of(&seen([0.0, 140.0]), 80.0).expect("cut off");
+        let bright = Clipped::of(&seen([0.0, 255.0], 115.0), 80.0).expect("cut off");
         assert!(bright.outside > 0.9 && bright.inside < 0.1, "{bright:?}");
         assert!(format!("{bright}").contains("beside metal has the last value"));
         assert_eq!(Clipped::of(&[], 80.0), None);
+        // Opaque metal is as flat, and no window ends there.
+        assert_eq!(Clipped::of(&seen([75.0, 255.0], 0.0), 80.0), None);
+        // Of bright metal.
+        let mut negative = seen([0.0, 255.0], -75.0);
+        let swapped = negative.iter_mut().flat_map(|profile| &mut profile.mean);
+        swapped.for_each(|value| *value -= 255.0);
+        assert_eq!(Clipped::of(&negative, 80.0), Some(dark));
     }
 }

@@ -43,7 +43,8 @@ impl Record for FramePose {
         numbers.extend([fit.known, fit.beyond, fit.met]);
         numbers.extend([fit.residual_px, fit.misfit_px, apart]);
         let contrast = &self.contrast;
-        numbers.extend([fit.size_px, fit.behind_mm, self.misfit_px, contrast.step]);
+        numbers.extend([fit.size_px, fit.behind_mm, fit.depth_mm]);
+        numbers.extend([self.misfit_px, contrast.step]);
         numbers.extend([contrast.strength, contrast.known]);
         numbers.extend(self.film_steps.iter().flatten());
         if fit.implausible_width_mm > 0.0 {
@@ -78,6 +79,7 @@ impl Record for FramePose {
             apart,
             size_px,
             behind_mm,
+            depth_mm,
         ] = reader.some()?;
         let mut fit = Fit {
             known,
@@ -88,8 +90,9 @@ impl Record for FramePose {
             apart_px: (!apart.is_nan()).then_some(apart),
             size_px,
             behind_mm,
+            depth_mm,
+            implausible_width_mm: 0.0,
             square_px: 1,
-            ..Fit::default()
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
@@ -258,6 +261,7 @@ mod tests {
             film_steps: [[0.1; 6], [-1.0 / 3.0; 6]],
             fit: Fit {
                 met: 1.0 / 3.0,
+                depth_mm: 1000.0 / 3.0,
                 square_px: 1,
                 ..Fit::default()
             },
