@@ -29,6 +29,34 @@ impl Reader<'_> {
     }
 }
 
+/// What is written of every fit.
+fn fit_of(reader: &mut Reader<'_>) -> Option<Fit> {
+    let [
+        known,
+        beyond,
+        met,
+        residual_px,
+        misfit_px,
+        apart,
+        size_px,
+        behind_mm,
+        depth_mm,
+    ] = reader.some()?;
+    Some(Fit {
+        known,
+        beyond,
+        met,
+        residual_px,
+        misfit_px,
+        apart_px: (!apart.is_nan()).then_some(apart),
+        size_px,
+        behind_mm,
+        depth_mm,
+        implausible_width_mm: 0.0,
+        square_px: 1,
+    })
+}
+
 impl Record for FramePose {
     fn numbers(&self) -> Vec<f64> {
         let mut numbers = Vec::with_capacity(72);
@@ -70,30 +98,7 @@ impl Record for FramePose {
             }
             false => None,
         };
-        let [
-            known,
-            beyond,
-            met,
-            residual_px,
-            misfit_px,
-            apart,
-            size_px,
-            behind_mm,
-            depth_mm,
-        ] = reader.some()?;
-        let mut fit = Fit {
-            known,
-            beyond,
-            met,
-            residual_px,
-            misfit_px,
-            apart_px: (!apart.is_nan()).then_some(apart),
-            size_px,
-            behind_mm,
-            depth_mm,
-            implausible_width_mm: 0.0,
-            square_px: 1,
-        };
+        let mut fit = fit_of(&mut reader)?;
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
         let film_steps: [[f64; 6]; 2] = [reader.some()?, reader.some()?];
