@@ -27,6 +27,8 @@ export interface Ui {
   readonly checking: boolean;
   /** The film is being followed. */
   readonly following: boolean;
+  /** Why its frames tell nothing of the film, where their grey values are cut off: a sentence without its full stop. */
+  readonly clipped: string | null;
   readonly tool: ToolName;
   /** Null: the whole frame, fitted to the canvas. */
   readonly viewport: Viewport | null;
@@ -139,6 +141,7 @@ const EMPTY_UI: Ui = {
   component: 'femur',
   checking: false,
   following: false,
+  clipped: null,
   tool: 'trace',
   viewport: null,
   selectedPoint: null,

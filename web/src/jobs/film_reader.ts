@@ -59,8 +59,6 @@ export class FilmReader {
   readonly #rested = new WeakMap<KnownFilm, readonly Witness[]>();
   /** How often these very poses were asked. */
   #turns = 0;
-  /** Whether it was said that the frames' grey values are cut off. */
-  #isClipped = false;
   #asked: string | null = null;
   /** Constants that somebody stated, while they are not taken. */
   #tried: string | null = null;
@@ -385,8 +383,10 @@ export class FilmReader {
 
   /** That grey values are cut off is said when it is seen first, whatever part of the outlines that is of later. */
   #sayClipped(clipped: string | null): void {
-    if (clipped !== null && !this.#isClipped) this.#services.store.say('info', asSentence(clipped), undefined, 'film');
-    this.#isClipped = clipped !== null;
+    const { store } = this.#services;
+    const isNew = clipped !== null && store.ui.clipped === null;
+    if (clipped !== store.ui.clipped) store.show({ clipped });
+    if (isNew) store.say('info', asSentence(clipped), undefined, 'film');
   }
 
   /** None where the frame cannot be held against the pose. */

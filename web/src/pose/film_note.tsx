@@ -2,8 +2,9 @@ import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { currentCell, currentPlace, type State } from '../document/store';
-import { cellOf, type Doc, type Posed } from '../document/types';
+import { cellOf, type Posed } from '../document/types';
 import { filmMissed } from '../results/film';
+import { asSentence } from '../texts/sentences';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
@@ -17,7 +18,7 @@ export function FilmNote({ state }: { state: State }) {
   const open = state.ui.popover === 'film';
   return (
     <section class="card note" aria-label={texts.film.card}>
-      <p class="card-note">{sentence(doc, currentPlace(state), posed)}</p>
+      <p class="card-note">{sentence(state, currentPlace(state), posed)}</p>
       <button type="button" class="button small" aria-haspopup="dialog" aria-expanded={open} title={texts.film.openTitle} onClick={() => store.show({ popover: open ? null : 'film' })}>
         {texts.film.open}
       </button>
@@ -26,9 +27,9 @@ export function FilmNote({ state }: { state: State }) {
 }
 
 /** The film in words; first what a person should know of the pose on view. */
-function sentence(doc: Doc, place: Place | null, posed: Posed | null): string {
+function sentence({ history: { present: doc }, ui }: State, place: Place | null, posed: Posed | null): string {
   const { known } = doc.film;
-  const words = known ? texts.film.known(known.words) : texts.film.unknown;
+  const words = known ? texts.film.known(known.words) : ui.clipped === null ? texts.film.unknown : asSentence(ui.clipped);
   const missed = place && posed?.onFrame ? filmMissed(posed.onFrame.film, filmNumbers(doc, place.component)) : null;
   if (!place || !posed || !missed) return words;
   const isChecked = checkState(cellOf(doc, place.frameId, place.component), markOf(doc, place)) === 'yes';
