@@ -14,7 +14,7 @@ use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory, polarity_at};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::OneClickBuffers;
@@ -386,24 +386,14 @@ impl FrameSearch {
     /// The core's sentence about a pose that was given and cannot be drawn.
     #[wasm_bindgen(js_name = walkTake)]
     pub fn walk_take(&mut self, frame: &FrameImage) -> Result<(), JsError> {
-        let squares = self.in_squares(frame)?;
-        let frame = squares.as_ref().unwrap_or(frame);
-        let Some(walk) = &mut self.walk else {
+        let Some(mut walk) = self.walk.take() else {
             return Ok(());
         };
-        let model = self.model.as_model();
-        let subject = Subject::new(&model, &self.planes, &self.camera);
-        let mut memory = self.refine.borrow(&model, &self.camera);
-        let (polarity, film) = (self.polarity, self.film);
-        frame.look(|frame| {
-            let image = ImageTarget {
-                frame,
-                unknown: None,
-                polarity,
-                film,
-            };
-            walk.take(&subject, &image, &mut memory).map_err(sentence)
-        })
+        let taken = self.look(frame, |subject, image, memory| {
+            walk.take(subject, image, memory).map_err(sentence)
+        });
+        self.walk = Some(walk);
+        taken
     }
 
     /// The first and the last frame in which it was followed, each with the six numbers of its pose: seven numbers, not finite where there
@@ -423,6 +413,29 @@ impl FrameSearch {
 }
 
 impl FrameSearch {
+    /// Looks at a frame in the squares that the film is read in.
+    fn look<T>(
+        &mut self,
+        frame: &FrameImage,
+        with: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let squares = self.in_squares(frame)?;
+        let frame = squares.as_ref().unwrap_or(frame);
+        let model = self.model.as_model();
+        let subject = Subject::new(&model, &self.planes, &self.camera);
+        let mut memory = self.refine.borrow(&model, &self.camera);
+        let (polarity, film) = (self.polarity, self.film);
+        frame.look(|frame| {
+            let image = ImageTarget {
+                frame,
+                unknown: None,
+                polarity,
+                film,
+            };
+            with(&subject, &image, &mut memory)
+        })
+    }
+
     /// Side of the squares that the film is read in, pixels.
     fn side(&self) -> usize {
         square_px(self.film.as_ref())
@@ -445,6 +458,6 @@ impl FrameSearch {
     /// Whether the component can be where a pose has it: before the detector, and not within the tube.
     fn may_be_at(&self, pose: &Pose) -> bool {
         let middle = self.model.as_model().bounds().centre;
-        self.calibration.may_hold(-pose.transform(&middle)[2])
+        self.calibration.may_be_at(pose, &middle)
     }
 }

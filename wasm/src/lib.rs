@@ -18,6 +18,7 @@ mod film;
 mod follower;
 mod found;
 mod frame_search;
+mod held;
 mod hidden;
 mod joint;
 mod joint_report;

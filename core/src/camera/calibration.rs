@@ -16,6 +16,7 @@ use heapless::Vec;
 pub use error::{CalibrationError, JT_INTCALIB, Unread};
 
 use crate::camera::Camera;
+use crate::math::Vector3;
 use crate::pose::Pose;
 use error::OF_TWO;
 use lines::lines_of;
@@ -177,10 +178,17 @@ impl Calibration {
     /// Whether anything is filmed so far from the focus, mm: nearer than the detector, where the file states how far that is, and farther than a
     /// tube's housing and what is kept between it and the skin, some 200 mm where a metre is usual.
     #[must_use]
-    pub fn may_hold(&self, distance: f64) -> bool {
+    fn may_hold(&self, distance: f64) -> bool {
         const NEAREST: f64 = 0.2;
         let is_before = self.principal_distance().is_none_or(|all| distance < all);
         is_before && distance > NEAREST * self.expected_distance()
+    }
+
+    /// Whether a component can be where a pose (`camera_from_model`) has the `middle` of its model's box, mm in its axes: before the detector, and not
+    /// within the tube.
+    #[must_use]
+    pub fn may_be_at(&self, pose: &Pose, middle: &Vector3) -> bool {
+        self.may_hold(-pose.transform(middle)[2])
     }
 
     /// Distance from focus to detector in mm, where the file states it.

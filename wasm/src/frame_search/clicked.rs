@@ -1,17 +1,15 @@
 //! What a click comes to that does not convince: whether its pose leads a film, or what the film finds without it.
 
 use fluoropose::follow::{
-    BesideClick, ClickOutcome, FramePose, Subject, click_outcome, frame_pose_at, holds_place,
-    leads_by_itself,
+    BesideClick, ClickOutcome, FramePose, click_outcome, frame_pose_at, leads_by_itself,
 };
-use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, Polarity, polarity_near};
-use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::refine::{Polarity, polarity_near};
 use wasm_bindgen::prelude::*;
 
 use super::FrameSearch;
 use super::walk::Walk;
+use crate::held::holds;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::from_numbers;
@@ -94,7 +92,8 @@ impl FrameSearch {
         let Some(found) = there.or_else(|| walk?.begun().copied()) else {
             return Ok(word(ClickOutcome::Leads));
         };
-        let is_held = |one: &FramePose| self.holds(&one.pose, [column, row]);
+        let model = self.model.as_model();
+        let is_held = |one: &FramePose| holds(&model, &self.whole, &one.pose, [column, row]);
         let holds = there.as_ref().map(is_held).transpose()?;
         let own = is_held(&clicked)?;
         let other = BesideClick {
@@ -107,32 +106,9 @@ impl FrameSearch {
 
 impl FrameSearch {
     fn found_at(&mut self, frame: &FrameImage, pose: &Pose) -> Result<FramePose, JsError> {
-        let squares = self.in_squares(frame)?;
-        let frame = squares.as_ref().unwrap_or(frame);
-        let model = self.model.as_model();
-        let subject = Subject::new(&model, &self.planes, &self.camera);
-        let mut memory = self.refine.borrow(&model, &self.camera);
-        let (polarity, film) = (self.polarity, self.film);
-        frame.look(|frame| {
-            let image = ImageTarget {
-                frame,
-                unknown: None,
-                polarity,
-                film,
-            };
-            frame_pose_at(&subject, &image, pose, &mut memory).map_err(sentence)
+        self.look(frame, |subject, image, memory| {
+            frame_pose_at(subject, image, pose, memory).map_err(sentence)
         })
-    }
-
-    /// Whether what is drawn at a pose holds a place of the whole frame.
-    fn holds(&self, pose: &Pose, place: [f64; 2]) -> Result<bool, JsError> {
-        let (width, height) = (self.whole.width(), self.whole.height());
-        let model = self.model.as_model();
-        let mut words = vec![0; words_needed(width, height)];
-        let mut projected = vec![Projected::default(); scratch_needed(&model)];
-        let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-        render(&model, &self.whole, pose, &mut projected, &mut mask).map_err(sentence)?;
-        Ok(holds_place(&mask.as_mask(), place))
     }
 }
 

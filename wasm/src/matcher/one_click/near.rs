@@ -2,20 +2,17 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
-use fluoropose::follow::{
-    FramePose, From, Subject, holds_place, leads_by_itself, refined_on_frame,
-};
+use fluoropose::follow::{FramePose, From, Subject, leads_by_itself, refined_on_frame};
 use fluoropose::image::contour::Point;
-use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{ImageTarget, RefineMemory};
-use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::PlacesBuffers;
 use fluoropose_tracing::one_click::{Answer, OneClickBuffers};
 use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::JsError;
 
+use crate::held::holds;
 use fluoropose_page::error::sentence;
 
 /// Of the answers to a click so many are refined once more and compared.
@@ -57,18 +54,6 @@ impl Clicked<'_> {
             let found = refined_on_frame(&self.subject(), &self.image, start, memory);
             found.is_ok_and(|found| leads_by_itself(&found))
         })
-    }
-
-    /// Whether what is drawn at a pose holds the place.
-    fn holds(&self, pose: &Pose) -> Result<bool, JsError> {
-        let (width, height) = (self.camera.width(), self.camera.height());
-        let model = self.component.model;
-        let mut words = vec![0; words_needed(width, height)];
-        let mut projected = vec![Projected::default(); scratch_needed(model)];
-        let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-        render(model, self.camera, pose, &mut projected, &mut mask).map_err(sentence)?;
-        let place = [self.place.column, self.place.row];
-        Ok(holds_place(&mask.as_mask(), place))
     }
 }
 
@@ -136,8 +121,11 @@ impl Search {
     /// The core's sentence where it cannot be drawn.
     pub(super) fn found(&self, clicked: &Clicked<'_>) -> Result<Option<Pose>, JsError> {
         let found: Option<&FramePose> = self.search.found().map(|found| &found.pose);
+        let place = [clicked.place.column, clicked.place.row];
         match found {
-            Some(found) if clicked.holds(&found.pose)? => Ok(Some(found.pose)),
+            Some(found) if holds(clicked.component.model, clicked.camera, &found.pose, place)? => {
+                Ok(Some(found.pose))
+            }
             _ => Ok(None),
         }
     }

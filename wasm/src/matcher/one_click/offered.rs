@@ -20,10 +20,7 @@ pub(super) fn possible<'a>(
     calibration: &Calibration,
     middle: &Vector3,
 ) -> Vec<&'a Answer> {
-    let may_be = |answer: &&Answer| {
-        let pose = &answer.refined.pose;
-        calibration.may_hold(-pose.transform(middle)[2])
-    };
+    let may_be = |answer: &&Answer| calibration.may_be_at(&answer.refined.pose, middle);
     let possible: Vec<_> = all.iter().filter(may_be).collect();
     match possible.is_empty() {
         true => all.iter().collect(),

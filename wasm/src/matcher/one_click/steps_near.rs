@@ -51,7 +51,7 @@ impl OneClick {
                 .model
                 .as_ref()
                 .map(|model| model.model().bounds().centre);
-            middle.is_none_or(|middle| self.calibration.may_hold(-pose.transform(&middle)[2]))
+            middle.is_none_or(|middle| self.calibration.may_be_at(pose, &middle))
         });
         let given = found.map(|pose| matcher.given_pose(&pose, &self.seen()));
         self.end_near(given.transpose()?)

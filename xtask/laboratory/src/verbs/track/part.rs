@@ -211,7 +211,7 @@ impl<'s> Part<'s> {
 
     /// Whether the component can be where a pose has it: before the detector, and not within the tube.
     pub(super) fn may_be_at(&self, pose: &Pose) -> bool {
-        self.calibration.may_hold(self.depth_of(pose))
+        self.calibration.may_be_at(pose, &self.middle())
     }
 
     pub(super) fn model(&self) -> Model<'s> {
